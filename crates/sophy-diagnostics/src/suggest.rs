@@ -1,0 +1,96 @@
+/// The candidate that a person most likely meant by `name`, if one is close.
+///
+/// Close is: equal but for case; `name` is a word of the candidate, or its first or last letters
+/// (`Mode` for `ChargeMode`, `C` for `Capacity`); or few letters differ (a third of the longer name, swapped
+/// neighbours counting as one). Earlier candidates win ties, so order them by likelihood.
+pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        if candidate == name || candidate.is_empty() {
+            continue;
+        }
+        if let Some(distance) = closeness(name, candidate)
+            && best.is_none_or(|(least, _)| distance < least)
+        {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Smaller is closer; `None` is not close at all.
+fn closeness(name: &str, candidate: &str) -> Option<usize> {
+    let (lower, lower_candidate) = (name.to_lowercase(), candidate.to_lowercase());
+    if lower == lower_candidate {
+        return Some(0);
+    }
+    let letters = name.chars().count();
+    let limit = letters.max(candidate.chars().count()).div_ceil(3);
+    let distance = edit_distance(&lower, &lower_candidate);
+    if letters > 1 && distance <= limit && distance < letters {
+        return Some(1 + distance);
+    }
+    let words = words(candidate);
+    if words.iter().any(|word| word.to_lowercase() == lower) {
+        return Some(10);
+    }
+    if lower_candidate.starts_with(&lower) {
+        return Some(20);
+    }
+    words.iter().any(|word| word.to_lowercase().starts_with(&lower)).then_some(30)
+}
+
+/// `ChargeMode` → `Charge`, `Mode`; `max_speed` → `max`, `speed`.
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut after_lower = false;
+    for c in name.chars() {
+        if (c.is_uppercase() && after_lower) || !c.is_alphanumeric() {
+            words.push(String::new());
+        }
+        after_lower = c.is_lowercase() || c.is_numeric();
+        if c.is_alphanumeric()
+            && let Some(word) = words.last_mut()
+        {
+            word.push(c);
+        }
+    }
+    words
+}
+
+/// Damerau–Levenshtein distance (optimal string alignment), in characters.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut before: Vec<usize> = vec![0; b.len() + 1];
+    let mut previous: Vec<usize> = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        let mut row = vec![i; b.len() + 1];
+        for j in 1..=b.len() {
+            let substitute = previous[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            row[j] = substitute.min(previous[j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                row[j] = row[j].min(before[j - 2] + 1);
+            }
+        }
+        before = std::mem::replace(&mut previous, row);
+    }
+    previous[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_person_meant() {
+        let meant = |name, candidates: &[&'static str]| closest(name, candidates.iter().copied());
+        assert_eq!(meant("Positoin", &["Speed", "Position"]), Some("Position"));
+        assert_eq!(meant("position", &["Speed", "Position"]), Some("Position"));
+        assert_eq!(meant("Mode", &["Capacity", "ChargeMode", "V"]), Some("ChargeMode"));
+        assert_eq!(meant("C", &["Capacity", "ChargeMode"]), Some("Capacity"));
+        assert_eq!(meant("M", &["Capacity", "ChargeMode"]), Some("ChargeMode"));
+        assert_eq!(meant("Charge", &["Nominal", "Payload", "Safe"]), None);
+        assert_eq!(meant("FootHeight", &["G", "L", "TAU"]), None);
+        assert_eq!(meant("x2", &["x1", "y"]), Some("x1"));
+    }
+}

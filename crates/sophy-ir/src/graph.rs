@@ -1,0 +1,332 @@
+use crate::arithmetic::{Binary, Comparison, Unary, integer_power};
+use crate::model::VariableId;
+use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
+use std::collections::HashMap;
+
+/// A node of a [`Graph`]. Equal expressions of one graph have equal ids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId(u32);
+
+impl NodeId {
+    /// Position in the graph; operands come before what uses them.
+    pub fn position(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What an expression can refer to. A [`crate::Model`] uses `Variable`, a [`crate::System`] the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Leaf {
+    /// A variable of a model, by its declaration.
+    Variable(VariableId),
+    /// A parameter.
+    Parameter(ParameterIndex),
+    /// A continuous state.
+    State(StateIndex),
+    /// A continuous input.
+    Input(InputIndex),
+    /// An algebraic variable.
+    Algebraic(AlgebraicIndex),
+    /// Simulated time, s.
+    Time,
+    /// A decided comparison (boolean).
+    Truth(TruthIndex),
+    /// The present integer of a `floor`.
+    Stair(StairIndex),
+}
+
+/// One operation. Numbers are kept by their bits, so that −0 and 0 differ and NaN equals itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Node {
+    /// A number, as `f64::to_bits`.
+    Number(u64),
+    /// `true` or `false`.
+    Boolean(bool),
+    /// A reference.
+    Leaf(Leaf),
+    /// A function of one number.
+    Unary(Unary, NodeId),
+    /// A function of two numbers.
+    Binary(Binary, NodeId, NodeId),
+    /// A power with a whole exponent.
+    IntegerPower(NodeId, i32),
+    /// A comparison; its value is boolean.
+    Compare(Comparison, NodeId, NodeId),
+    /// Negation of a boolean.
+    Not(NodeId),
+    /// Both.
+    And(NodeId, NodeId),
+    /// At least one.
+    Or(NodeId, NodeId),
+    /// `if condition then a else b`; the branch not taken is not evaluated.
+    Select(NodeId, NodeId, NodeId),
+}
+
+/// A hash-consed expression graph: a node is stored once, operands before users.
+///
+/// Constructors fold numbers with [`crate::arithmetic`] and apply only identities that hold to the bit for
+/// every IEEE value (`1·x`, `x/1`, `x¹`, `−(−x)`, constant conditions).
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    known: HashMap<Node, NodeId>,
+}
+
+impl Graph {
+    /// The operation of a node.
+    #[inline]
+    pub fn node(&self, id: NodeId) -> Node {
+        self.nodes[id.position()]
+    }
+
+    /// Number of distinct nodes.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether nothing was built yet.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    fn intern(&mut self, node: Node) -> NodeId {
+        if let Some(&id) = self.known.get(&node) {
+            return id;
+        }
+        let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.nodes.push(node);
+        self.known.insert(node, id);
+        id
+    }
+
+    /// The number of a node, if it is one.
+    pub fn as_number(&self, id: NodeId) -> Option<f64> {
+        match self.node(id) {
+            Node::Number(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// A number.
+    pub fn number(&mut self, value: f64) -> NodeId {
+        self.intern(Node::Number(value.to_bits()))
+    }
+
+    /// A truth value.
+    pub fn boolean(&mut self, value: bool) -> NodeId {
+        self.intern(Node::Boolean(value))
+    }
+
+    /// A reference.
+    pub fn leaf(&mut self, leaf: Leaf) -> NodeId {
+        self.intern(Node::Leaf(leaf))
+    }
+
+    /// A function of one number.
+    pub fn unary(&mut self, function: Unary, a: NodeId) -> NodeId {
+        if let Some(x) = self.as_number(a) {
+            return self.number(function.apply(x));
+        }
+        if function == Unary::Negate
+            && let Node::Unary(Unary::Negate, inner) = self.node(a)
+        {
+            return inner;
+        }
+        self.intern(Node::Unary(function, a))
+    }
+
+    /// A function of two numbers. A power with a small whole number becomes [`Node::IntegerPower`].
+    pub fn binary(&mut self, function: Binary, a: NodeId, b: NodeId) -> NodeId {
+        let (left, right) = (self.as_number(a), self.as_number(b));
+        if function == Binary::Power
+            && let Some(exponent) = right
+            && exponent.fract() == 0.0
+            && exponent.abs() <= 64.0
+        {
+            return self.integer_power(a, exponent as i32);
+        }
+        match (function, left, right) {
+            (_, Some(x), Some(y)) => self.number(function.apply(x, y)),
+            (Binary::Multiply, Some(1.0), _) => b,
+            (Binary::Multiply | Binary::Divide, _, Some(1.0)) => a,
+            _ => self.intern(Node::Binary(function, a, b)),
+        }
+    }
+
+    /// `aⁿ`.
+    pub fn integer_power(&mut self, a: NodeId, n: i32) -> NodeId {
+        match (self.as_number(a), n) {
+            (Some(x), _) => self.number(integer_power(x, n)),
+            (None, 1) => a,
+            _ => self.intern(Node::IntegerPower(a, n)),
+        }
+    }
+
+    /// A comparison.
+    pub fn compare(&mut self, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {
+        if let (Some(x), Some(y)) = (self.as_number(a), self.as_number(b)) {
+            return self.boolean(comparison.holds(x, y));
+        }
+        self.intern(Node::Compare(comparison, a, b))
+    }
+
+    /// Negation of a boolean.
+    pub fn not(&mut self, a: NodeId) -> NodeId {
+        match self.node(a) {
+            Node::Boolean(value) => self.boolean(!value),
+            Node::Not(inner) => inner,
+            _ => self.intern(Node::Not(a)),
+        }
+    }
+
+    /// Both of two booleans.
+    pub fn and(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        match (self.node(a), self.node(b)) {
+            (Node::Boolean(true), _) => b,
+            (_, Node::Boolean(true)) => a,
+            (Node::Boolean(false), _) | (_, Node::Boolean(false)) => self.boolean(false),
+            _ => self.intern(Node::And(a, b)),
+        }
+    }
+
+    /// At least one of two booleans.
+    pub fn or(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        match (self.node(a), self.node(b)) {
+            (Node::Boolean(false), _) => b,
+            (_, Node::Boolean(false)) => a,
+            (Node::Boolean(true), _) | (_, Node::Boolean(true)) => self.boolean(true),
+            _ => self.intern(Node::Or(a, b)),
+        }
+    }
+
+    /// `if condition then a else b`.
+    pub fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
+        match self.node(condition) {
+            Node::Boolean(true) => a,
+            Node::Boolean(false) => b,
+            _ if a == b => a,
+            _ => self.intern(Node::Select(condition, a, b)),
+        }
+    }
+
+    /// `a + b`, for code that builds formulas.
+    pub fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.binary(Binary::Add, a, b)
+    }
+
+    /// `a − b`.
+    pub fn subtract(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.binary(Binary::Subtract, a, b)
+    }
+
+    /// `a·b`.
+    pub fn multiply(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.binary(Binary::Multiply, a, b)
+    }
+
+    /// `a/b`.
+    pub fn divide(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.binary(Binary::Divide, a, b)
+    }
+
+    /// Calls `visit` on the operands of a node, in order.
+    pub fn operands(&self, id: NodeId, mut visit: impl FnMut(NodeId)) {
+        match self.node(id) {
+            Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => {}
+            Node::Unary(_, a) | Node::IntegerPower(a, _) | Node::Not(a) => visit(a),
+            Node::Binary(_, a, b) | Node::Compare(_, a, b) | Node::And(a, b) | Node::Or(a, b) => {
+                visit(a);
+                visit(b);
+            }
+            Node::Select(c, a, b) => {
+                visit(c);
+                visit(a);
+                visit(b);
+            }
+        }
+    }
+
+    /// All nodes that `roots` need, operands before users, each once.
+    pub fn reachable(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut pending: Vec<NodeId> = roots.into_iter().collect();
+        while let Some(id) = pending.pop() {
+            if !std::mem::replace(&mut seen[id.position()], true) {
+                self.operands(id, |operand| pending.push(operand));
+            }
+        }
+        (0..self.nodes.len()).filter(|&i| seen[i]).map(|i| NodeId(i as u32)).collect()
+    }
+
+    /// Copies `root` of `from` into this graph, leaves replaced by `replace` (their nodes in this graph).
+    pub fn import(
+        &mut self,
+        from: &Graph,
+        root: NodeId,
+        replace: &mut impl FnMut(&mut Graph, Leaf) -> NodeId,
+    ) -> NodeId {
+        let mut copied: HashMap<NodeId, NodeId> = HashMap::new();
+        for id in from.reachable([root]) {
+            let get = |operand: NodeId| copied[&operand];
+            let copy = match from.node(id) {
+                Node::Leaf(leaf) => replace(self, leaf),
+                other => {
+                    let mapped = map_operands(other, get);
+                    self.rebuild(mapped)
+                }
+            };
+            copied.insert(id, copy);
+        }
+        copied[&root]
+    }
+
+    /// Builds a node through the folding constructors.
+    pub fn rebuild(&mut self, node: Node) -> NodeId {
+        match node {
+            Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => self.intern(node),
+            Node::Unary(function, a) => self.unary(function, a),
+            Node::Binary(function, a, b) => self.binary(function, a, b),
+            Node::IntegerPower(a, n) => self.integer_power(a, n),
+            Node::Compare(comparison, a, b) => self.compare(comparison, a, b),
+            Node::Not(a) => self.not(a),
+            Node::And(a, b) => self.and(a, b),
+            Node::Or(a, b) => self.or(a, b),
+            Node::Select(c, a, b) => self.select(c, a, b),
+        }
+    }
+}
+
+/// The same operation on other operands.
+pub(crate) fn map_operands(node: Node, get: impl Fn(NodeId) -> NodeId) -> Node {
+    match node {
+        Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => node,
+        Node::Unary(function, a) => Node::Unary(function, get(a)),
+        Node::Binary(function, a, b) => Node::Binary(function, get(a), get(b)),
+        Node::IntegerPower(a, n) => Node::IntegerPower(get(a), n),
+        Node::Compare(comparison, a, b) => Node::Compare(comparison, get(a), get(b)),
+        Node::Not(a) => Node::Not(get(a)),
+        Node::And(a, b) => Node::And(get(a), get(b)),
+        Node::Or(a, b) => Node::Or(get(a), get(b)),
+        Node::Select(c, a, b) => Node::Select(get(c), get(a), get(b)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_expressions_are_one_node_and_numbers_fold() {
+        let mut g = Graph::default();
+        let x = g.leaf(Leaf::Time);
+        let two = g.number(2.0);
+        let (a, b) = (g.multiply(two, x), g.multiply(two, x));
+        assert_eq!(a, b);
+        let folded = g.add(two, two);
+        assert_eq!(g.as_number(folded), Some(4.0));
+        let one = g.number(1.0);
+        assert_eq!(g.multiply(one, x), x);
+        let zero = g.number(0.0);
+        assert_ne!(g.multiply(zero, x), zero, "0·x is not 0 when x is NaN or infinite");
+    }
+}

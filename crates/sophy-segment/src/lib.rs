@@ -1,0 +1,1 @@
+//! Superdense instants, polynomial segments, intervals, first crossings.
