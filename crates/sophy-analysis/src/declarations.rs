@@ -27,6 +27,8 @@ pub struct Declarations {
     pub initial_location: Option<Spanned<String>>,
     /// Units, by name of the variable or constant.
     pub units: Vec<(Spanned<String>, Spanned<String>)>,
+    /// Names and values of what a file says to other tools; nothing here depends on it.
+    pub hints: Vec<(Spanned<String>, Spanned<String>)>,
     /// Locations.
     pub locations: Vec<LocationDeclaration>,
 }

@@ -1,1 +1,17 @@
-//! (being built)
+//! `System` → callable [`sophy_field::Equations`] and [`sophy_field::Logic`].
+//!
+//! - [`compile`] is the whole path: parameters are evaluated, rows become programs, programs are gathered
+//!   into blocks by influence.
+//! - One program serves every use: [`interpret`](interpreter) runs it on `f64` jets to any order (so that
+//!   derivatives along the motion are exact), and on intervals for enclosures.
+
+mod blocks;
+mod compile;
+mod interpreter;
+mod jet;
+mod logic;
+mod programs;
+mod scalar;
+
+pub use compile::{CompileError, Compiled, Parameters, compile};
+pub use interpreter::{enclose, run};

@@ -1,6 +1,29 @@
 //! What equations, engines and hybrid logic say to one another.
+//!
+//! - Typed indices ([`StateIndex`] …): after the passes no name is looked up.
+//! - [`Equations`]: callable equations and their incidence, filled by the code generator, read by engines.
+//! - [`Engine`]: advances in bursts, answers [`Stop`]; takes [`Changes`]; writes a [`Journal`].
+//! - [`Logic`]: compiled transitions, read by the hybrid logic.
+//! - [`Agenda`]: the queue of what happens next.
+
+mod agenda;
+mod engine;
+mod equations;
 mod index;
+mod journal;
+mod logic;
+mod program;
+
+pub use agenda::Agenda;
+pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
+pub use equations::{
+    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, Selected, SourceIndex,
+    WatchCode,
+};
 pub use index::{
     AlgebraicIndex, AutomatonIndex, EventIndex, InputIndex, LocationIndex, OutputIndex, ParameterIndex,
     StairIndex, StateIndex, TransitionIndex, TruthIndex, WatchIndex,
 };
+pub use journal::{Journal, Record};
+pub use logic::{sign_bit, Guard, GuardStep, Logic, TransitionCode, TriggerCode};
+pub use program::{Code, Enclose, Instruction, Operand, Program, Run};

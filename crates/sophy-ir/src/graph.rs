@@ -271,7 +271,7 @@ impl Graph {
             let copy = match from.node(id) {
                 Node::Leaf(leaf) => replace(self, leaf),
                 other => {
-                    let mapped = map_operands(other, get);
+                    let mapped = other.map(get);
                     self.rebuild(mapped)
                 }
             };
@@ -296,18 +296,21 @@ impl Graph {
     }
 }
 
-/// The same operation on other operands.
-pub(crate) fn map_operands(node: Node, get: impl Fn(NodeId) -> NodeId) -> Node {
-    match node {
-        Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => node,
-        Node::Unary(function, a) => Node::Unary(function, get(a)),
-        Node::Binary(function, a, b) => Node::Binary(function, get(a), get(b)),
-        Node::IntegerPower(a, n) => Node::IntegerPower(get(a), n),
-        Node::Compare(comparison, a, b) => Node::Compare(comparison, get(a), get(b)),
-        Node::Not(a) => Node::Not(get(a)),
-        Node::And(a, b) => Node::And(get(a), get(b)),
-        Node::Or(a, b) => Node::Or(get(a), get(b)),
-        Node::Select(c, a, b) => Node::Select(get(c), get(a), get(b)),
+impl Node {
+    /// The same operation on other operands.
+    #[must_use]
+    pub fn map(self, get: impl Fn(NodeId) -> NodeId) -> Node {
+        match self {
+            Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => self,
+            Node::Unary(function, a) => Node::Unary(function, get(a)),
+            Node::Binary(function, a, b) => Node::Binary(function, get(a), get(b)),
+            Node::IntegerPower(a, n) => Node::IntegerPower(get(a), n),
+            Node::Compare(comparison, a, b) => Node::Compare(comparison, get(a), get(b)),
+            Node::Not(a) => Node::Not(get(a)),
+            Node::And(a, b) => Node::And(get(a), get(b)),
+            Node::Or(a, b) => Node::Or(get(a), get(b)),
+            Node::Select(c, a, b) => Node::Select(get(c), get(a), get(b)),
+        }
     }
 }
 

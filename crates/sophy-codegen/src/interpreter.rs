@@ -1,0 +1,187 @@
+//! The interpreter: one function that runs any program, for every number of coefficients and for numbers and
+//! enclosures alike.
+
+use crate::jet;
+use crate::scalar::Scalar;
+use sophy_field::{Code, Program};
+use sophy_segment::Interval;
+
+/// Runs `program` on numbers; see [`sophy_field::Run`].
+pub fn run(program: &Program, memory: &mut [f64], orders: usize) {
+    dispatch(program, memory, orders);
+}
+
+/// Runs `program` on enclosures; see [`sophy_field::Enclose`].
+pub fn enclose(program: &Program, memory: &mut [Interval], orders: usize) {
+    dispatch(program, memory, orders);
+}
+
+#[inline]
+fn dispatch<T: Scalar>(program: &Program, memory: &mut [T], orders: usize) {
+    match orders {
+        1 => execute::<T, 1>(program, memory),
+        2 => execute::<T, 2>(program, memory),
+        _ => execute::<T, 3>(program, memory),
+    }
+}
+
+#[inline]
+fn load<T: Copy, const N: usize>(memory: &[T], at: u32) -> [T; N] {
+    let at = at as usize;
+    let slice = &memory[at..at + N];
+    std::array::from_fn(|k| slice[k])
+}
+
+#[inline]
+fn store<T: Copy, const N: usize>(memory: &mut [T], at: u32, value: [T; N]) {
+    let at = at as usize;
+    memory[at..at + N].copy_from_slice(&value);
+}
+
+fn execute<T: Scalar, const N: usize>(program: &Program, memory: &mut [T]) {
+    let mut next = 0;
+    while let Some(instruction) = program.instructions.get(next) {
+        next += 1;
+        let (to, a, b) = (instruction.to, instruction.a, instruction.b);
+        macro_rules! jet {
+            ($at:expr) => {
+                load::<T, N>(memory, $at)
+            };
+        }
+        macro_rules! scalar {
+            ($at:expr) => {
+                memory[$at as usize]
+            };
+        }
+        let value: [T; N] = match instruction.code {
+            Code::AddJJ => zip(jet!(a), jet!(b), |x, y| x + y),
+            Code::AddJS => with_first(jet!(a), |x| x + scalar!(b)),
+            Code::SubJJ => zip(jet!(a), jet!(b), |x, y| x - y),
+            Code::SubJS => with_first(jet!(a), |x| x - scalar!(b)),
+            Code::SubSJ => {
+                let right = jet!(b);
+                let mut c = right.map(|x| -x);
+                c[0] = scalar!(a) - right[0];
+                c
+            }
+            Code::MulJJ => jet::multiply(jet!(a), jet!(b)),
+            Code::MulJS => {
+                let factor = scalar!(b);
+                jet!(a).map(|x| x * factor)
+            }
+            Code::DivJJ => jet::divide(jet!(a), jet!(b)),
+            Code::DivJS => {
+                let below = scalar!(b);
+                jet!(a).map(|x| x / below)
+            }
+            Code::DivSJ => {
+                let mut above = [T::of(0.0); N];
+                above[0] = scalar!(a);
+                jet::divide(above, jet!(b))
+            }
+            Code::Negate => jet!(a).map(|x| -x),
+            Code::Square => jet::square(jet!(a)),
+            Code::IntegerPower => jet::integer_power(jet!(a), b as i32),
+            Code::PowJS => jet::power_constant(jet!(a), scalar!(b)),
+            Code::PowSJ => {
+                let mut base = [T::of(0.0); N];
+                base[0] = scalar!(a);
+                jet::power(base, jet!(b))
+            }
+            Code::PowJJ => jet::power(jet!(a), jet!(b)),
+            Code::Min | Code::Max => {
+                let (x, y) = (jet!(a), jet!(b));
+                if x[0].less(y[0]) == (instruction.code == Code::Min) { x } else { y }
+            }
+            Code::Atan2 => jet::atan2(jet!(a), jet!(b)),
+            Code::Sin => jet::sine_cosine(jet!(a), false).0,
+            Code::Cos => jet::sine_cosine(jet!(a), false).1,
+            Code::Tan => jet::tangent(jet!(a), false),
+            Code::Asin => jet::asin(jet!(a)),
+            Code::Acos => jet::acos(jet!(a)),
+            Code::Atan => jet::atan(jet!(a)),
+            Code::Sinh => jet::sine_cosine(jet!(a), true).0,
+            Code::Cosh => jet::sine_cosine(jet!(a), true).1,
+            Code::Tanh => jet::tangent(jet!(a), true),
+            Code::Asinh => jet::asinh(jet!(a)),
+            Code::Acosh => jet::acosh(jet!(a)),
+            Code::Atanh => jet::atanh(jet!(a)),
+            Code::Exp => jet::exp(jet!(a)),
+            Code::Ln => jet::ln(jet!(a)),
+            Code::Log10 => jet::log10(jet!(a)),
+            Code::Sqrt => jet::sqrt(jet!(a)),
+            Code::Abs => {
+                let x = jet!(a);
+                if x[0].less(T::of(0.0)) { x.map(|c| -c) } else { x }
+            }
+            Code::Sign => constant(jet!(a)[0].sign()),
+            Code::Floor => constant(jet!(a)[0].floor()),
+            Code::CopyJ => jet!(a),
+            Code::Spread => constant(scalar!(a)),
+            Code::Less => {
+                memory[to as usize] = truth(scalar!(a).less(scalar!(b)));
+                continue;
+            }
+            Code::LessEqual => {
+                let (x, y) = (scalar!(a), scalar!(b));
+                memory[to as usize] = truth(x.less(y) || x.equal(y));
+                continue;
+            }
+            Code::Equal => {
+                memory[to as usize] = truth(scalar!(a).equal(scalar!(b)));
+                continue;
+            }
+            Code::Not => {
+                memory[to as usize] = truth(!is_true(scalar!(a)));
+                continue;
+            }
+            Code::And => {
+                memory[to as usize] = truth(is_true(scalar!(a)) && is_true(scalar!(b)));
+                continue;
+            }
+            Code::Or => {
+                memory[to as usize] = truth(is_true(scalar!(a)) || is_true(scalar!(b)));
+                continue;
+            }
+            Code::JumpIfZero => {
+                if !is_true(scalar!(a)) {
+                    next = b as usize;
+                }
+                continue;
+            }
+            Code::Jump => {
+                next = b as usize;
+                continue;
+            }
+        };
+        store(memory, to, value);
+    }
+}
+
+#[inline]
+fn zip<T: Copy, const N: usize>(a: [T; N], b: [T; N], f: impl Fn(T, T) -> T) -> [T; N] {
+    std::array::from_fn(|k| f(a[k], b[k]))
+}
+
+#[inline]
+fn with_first<T: Copy, const N: usize>(mut a: [T; N], f: impl Fn(T) -> T) -> [T; N] {
+    a[0] = f(a[0]);
+    a
+}
+
+#[inline]
+fn constant<T: Scalar, const N: usize>(value: T) -> [T; N] {
+    let mut c = [T::of(0.0); N];
+    c[0] = value;
+    c
+}
+
+#[inline]
+fn truth<T: Scalar>(value: bool) -> T {
+    T::of(if value { 1.0 } else { 0.0 })
+}
+
+#[inline]
+fn is_true<T: Scalar>(value: T) -> bool {
+    !value.equal(T::of(0.0))
+}

@@ -1,0 +1,133 @@
+use sophy_segment::Interval;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// What a jet's coefficients are made of: numbers, or enclosures of numbers.
+pub(crate) trait Scalar:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    fn of(value: f64) -> Self;
+    fn square(self) -> Self;
+    fn sqrt(self) -> Self;
+    fn exp(self) -> Self;
+    fn ln(self) -> Self;
+    fn log10(self) -> Self;
+    fn sin(self) -> Self;
+    fn cos(self) -> Self;
+    fn tan(self) -> Self;
+    fn asin(self) -> Self;
+    fn acos(self) -> Self;
+    fn atan(self) -> Self;
+    fn sinh(self) -> Self;
+    fn cosh(self) -> Self;
+    fn tanh(self) -> Self;
+    fn asinh(self) -> Self;
+    fn acosh(self) -> Self;
+    fn atanh(self) -> Self;
+    fn atan2(self, x: Self) -> Self;
+    fn pow(self, exponent: Self) -> Self;
+    fn integer_power(self, n: i32) -> Self;
+    fn floor(self) -> Self;
+    fn sign(self) -> Self;
+    /// Whether `self < other` at the point that decides a switch.
+    fn less(self, other: Self) -> bool;
+    /// Whether both are the same number.
+    fn equal(self, other: Self) -> bool;
+}
+
+macro_rules! through_libm {
+    ($($name:ident),*) => {$(
+        #[inline]
+        fn $name(self) -> Self {
+            libm::$name(self)
+        }
+    )*};
+}
+
+#[allow(clippy::float_cmp)]
+impl Scalar for f64 {
+    through_libm!(exp, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh);
+
+    #[inline]
+    fn of(value: f64) -> Self {
+        value
+    }
+    #[inline]
+    fn square(self) -> Self {
+        self * self
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline]
+    fn ln(self) -> Self {
+        libm::log(self)
+    }
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
+    #[inline]
+    fn pow(self, exponent: Self) -> Self {
+        libm::pow(self, exponent)
+    }
+    #[inline]
+    fn integer_power(self, n: i32) -> Self {
+        sophy_ir::arithmetic::integer_power(self, n)
+    }
+    #[inline]
+    fn floor(self) -> Self {
+        f64::floor(self)
+    }
+    #[inline]
+    fn sign(self) -> Self {
+        sophy_ir::arithmetic::sign(self)
+    }
+    #[inline]
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline]
+    fn equal(self, other: Self) -> bool {
+        self == other
+    }
+}
+
+macro_rules! through_interval {
+    ($($name:ident),*) => {$(
+        fn $name(self) -> Self {
+            Interval::$name(self)
+        }
+    )*};
+}
+
+impl Scalar for Interval {
+    through_interval!(
+        square, sqrt, exp, ln, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh,
+        floor, sign
+    );
+
+    fn of(value: f64) -> Self {
+        Interval::point(value)
+    }
+    fn atan2(self, x: Self) -> Self {
+        Interval::atan2(self, x)
+    }
+    fn pow(self, exponent: Self) -> Self {
+        Interval::pow(self, exponent)
+    }
+    fn integer_power(self, n: i32) -> Self {
+        Interval::powi(self, n)
+    }
+    fn less(self, other: Self) -> bool {
+        self.midpoint() < other.midpoint()
+    }
+    fn equal(self, other: Self) -> bool {
+        self == other
+    }
+}

@@ -1,0 +1,275 @@
+use crate::{
+    AutomatonIndex, Enclose, LocationIndex, Operand, Program, Run, StateIndex, WatchIndex,
+};
+use sophy_segment::Interval;
+use std::ops::Range;
+
+/// The callable equations of a flat system: immutable, shared by all runs of a campaign.
+///
+/// **Sources** are what right-hand sides read: the states, then the inputs, then time (the vector z of the
+/// thesis, §3.2.2). Memory holds, for each source, a *quantised* jet (q, read by rates) and a *series* jet (x,
+/// read by guards, resets and outputs), then scalars and temporaries.
+///
+/// **Blocks** are rows evaluated together with shared subexpressions. [`Equations::influence`] lists, for
+/// each source, the blocks to evaluate when its quantised value changes; an entry of the list names the
+/// automaton whose location selects the block, so that switching locations rewrites nothing.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// Where things stand in memory.
+    pub layout: Layout,
+    /// Memory at the start of a run: parameters and constants filled in.
+    pub image: Vec<f64>,
+    /// The function that runs programs.
+    pub run: Run,
+    /// The function that encloses programs over an interval of time.
+    pub enclose: Enclose,
+    /// All programs.
+    pub programs: Vec<Program>,
+    /// All blocks.
+    pub blocks: Vec<Block>,
+    /// Sources read by blocks and formulas, by range.
+    pub sources: Vec<SourceIndex>,
+    /// Rows computed by blocks, by range.
+    pub rows: Vec<RowResult>,
+    /// Entries of the influence lists, in the order of evaluation.
+    pub entries: Vec<Entry>,
+    /// Per source: its entries.
+    pub influence: Vec<Range<u32>>,
+    /// Per state: the entries that evaluate its own rate.
+    pub own: Vec<Range<u32>>,
+    /// Per automaton: the entries to evaluate when its location changes.
+    pub on_location: Vec<Range<u32>>,
+    /// Per watch: the entries to evaluate when a truth or stair decided by it changes.
+    pub on_watch: Vec<Range<u32>>,
+    /// Per automaton: what it selects and arms.
+    pub automata: Vec<AutomatonCode>,
+    /// Watches; those that read a truth come after the watch that decides it.
+    pub watches: Vec<WatchCode>,
+    /// Per source: the watches that read it, directly or through algebraic variables.
+    pub watches_of_source: Vec<Vec<WatchIndex>>,
+    /// Per state: does its rate bend (is it other than affine in q, for some location)?
+    pub bends: Vec<bool>,
+    /// Per state: its rate on the series side (along x), for the Jacobian.
+    pub rates: Vec<Selected>,
+    /// Per output: its value, switches as written.
+    pub outputs: Vec<Selected>,
+}
+
+/// A source: a state, an input or time, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SourceIndex(pub u32);
+
+impl SourceIndex {
+    /// Position in the vector z = (x, u, t).
+    #[inline]
+    pub fn position(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Where things stand in memory; all offsets count numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// Coefficients per jet.
+    pub width: u32,
+    /// Number of states.
+    pub states: u32,
+    /// Number of inputs.
+    pub inputs: u32,
+    /// First quantised jet.
+    pub quantised: u32,
+    /// First series jet.
+    pub series: u32,
+    /// First truth (scalar 1 or 0), then the stairs.
+    pub truths: u32,
+    /// First stair.
+    pub stairs: u32,
+    /// Length of memory.
+    pub length: u32,
+}
+
+impl Layout {
+    /// Number of sources.
+    pub fn sources(self) -> usize {
+        (self.states + self.inputs + 1) as usize
+    }
+
+    /// Offset of a source's quantised jet.
+    #[inline]
+    pub fn quantised_of(self, source: SourceIndex) -> usize {
+        (self.quantised + source.0 * self.width) as usize
+    }
+
+    /// Offset of a source's series jet.
+    #[inline]
+    pub fn series_of(self, source: SourceIndex) -> usize {
+        (self.series + source.0 * self.width) as usize
+    }
+
+    /// The source that is time.
+    pub fn time(self) -> SourceIndex {
+        SourceIndex(self.states + self.inputs)
+    }
+}
+
+/// Rows that are evaluated together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Block {
+    /// Index of its program; rows that need none have an empty one.
+    pub program: u32,
+    /// In [`Equations::sources`]: whose quantised jets must be current.
+    pub sources: Range<u32>,
+    /// In [`Equations::rows`]: what it computes.
+    pub rows: Range<u32>,
+    /// Whether a row bends: then one more order than the engine's is evaluated, to bound its error.
+    pub bends: bool,
+}
+
+/// A rate computed by a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RowResult {
+    /// The state.
+    pub state: StateIndex,
+    /// Where its rate stands.
+    pub result: Operand,
+    /// Whether this rate is other than affine in the sources.
+    pub bends: bool,
+}
+
+/// One step of an influence list: the block `first + location(owner)`.
+/// Prerequisites have smaller `first`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Entry {
+    /// Its block for location 0.
+    pub first: u32,
+    /// The automaton whose location selects.
+    pub owner: AutomatonIndex,
+}
+
+/// What belongs to one automaton.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AutomatonCode {
+    /// States whose rates it selects.
+    pub states: Vec<StateIndex>,
+    /// Per location: watches armed there, in the order of watches.
+    pub armed: Vec<Vec<WatchIndex>>,
+    /// Per location, for each of `states`: which right-hand side it has; equal numbers mean equal ones.
+    pub row_of: Vec<Vec<u32>>,
+}
+
+/// The code of a watch.
+#[derive(Clone, Debug)]
+pub struct WatchCode {
+    /// Blocks of algebraic variables it reads (on the series side), then its own program.
+    pub formula: Formula,
+    /// Its two sides, for the comparison within rounding on entry.
+    pub left: Formula,
+    /// See `left`.
+    pub right: Formula,
+    /// Whether its polynomial is exact: crossings have a closed form.
+    pub affine: bool,
+    /// Whether a transition's guard reads it.
+    pub guard: bool,
+    /// Truths it decides: index and the signs (bit 0 −, bit 1 zero, bit 2 +) for which each holds.
+    pub truths: Vec<(u32, u8)>,
+    /// The stair it bounds from below (`Some((stair, -1.0))`) or from above (`Some((stair, 1.0))`).
+    pub stair: Option<(u32, f64)>,
+    /// Watches that read a truth or stair decided by this one.
+    pub dependents: Vec<WatchIndex>,
+}
+
+/// A value of series jets at an instant: prerequisites (algebraic variables, by location), then a program.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// Index of its program.
+    pub program: u32,
+    /// In [`Equations::sources`]: whose series jets must be current, prerequisites included.
+    pub sources: Range<u32>,
+    /// Programs to run first: owner and program for location 0.
+    pub before: Vec<Entry>,
+    /// Where the value stands.
+    pub result: Operand,
+}
+
+/// A value chosen by the location of one automaton.
+#[derive(Clone, Debug)]
+pub struct Selected {
+    /// Who selects.
+    pub owner: AutomatonIndex,
+    /// One formula per location.
+    pub by_location: Vec<Formula>,
+}
+
+impl Equations {
+    /// Runs the program of a formula on `memory`, whose series jets must be current, and gives its first
+    /// `orders` coefficients. `locations` are the present locations.
+    pub fn formula(
+        &self,
+        formula: &Formula,
+        locations: &[LocationIndex],
+        memory: &mut [f64],
+        orders: usize,
+    ) -> [f64; 3] {
+        for entry in &formula.before {
+            let program = entry.first + locations[entry.owner.position()].0;
+            (self.run)(&self.programs[program as usize], memory, orders);
+        }
+        (self.run)(&self.programs[formula.program as usize], memory, orders);
+        self.result(formula.result, memory, orders)
+    }
+
+    /// The same over intervals: enclosures of value, derivative and half the second derivative.
+    pub fn formula_enclosed(
+        &self,
+        formula: &Formula,
+        locations: &[LocationIndex],
+        memory: &mut [Interval],
+    ) -> [Interval; 3] {
+        let orders = self.layout.width as usize;
+        for entry in &formula.before {
+            let program = entry.first + locations[entry.owner.position()].0;
+            (self.enclose)(&self.programs[program as usize], memory, orders);
+        }
+        (self.enclose)(&self.programs[formula.program as usize], memory, orders);
+        let zero = Interval::point(0.0);
+        match formula.result {
+            Operand::Scalar(offset) => [memory[offset as usize], zero, zero],
+            Operand::Jet(offset) => std::array::from_fn(|k| {
+                if k < orders { memory[offset as usize + k] } else { Interval::ENTIRE }
+            }),
+        }
+    }
+
+    /// The coefficients that stand at an operand.
+    #[inline]
+    pub fn result(&self, operand: Operand, memory: &[f64], orders: usize) -> [f64; 3] {
+        let mut coefficients = [0.0; 3];
+        match operand {
+            Operand::Scalar(offset) => coefficients[0] = memory[offset as usize],
+            Operand::Jet(offset) => {
+                for (k, c) in coefficients.iter_mut().enumerate().take(orders) {
+                    *c = memory[offset as usize + k];
+                }
+            }
+        }
+        coefficients
+    }
+
+    /// The entries of a range.
+    #[inline]
+    pub fn entries(&self, range: &Range<u32>) -> &[Entry] {
+        &self.entries[range.start as usize..range.end as usize]
+    }
+
+    /// The block of an entry in the present locations.
+    #[inline]
+    pub fn block(&self, entry: Entry, locations: &[LocationIndex]) -> &Block {
+        &self.blocks[(entry.first + locations[entry.owner.position()].0) as usize]
+    }
+
+    /// The sources of a range.
+    #[inline]
+    pub fn sources(&self, range: &Range<u32>) -> &[SourceIndex] {
+        &self.sources[range.start as usize..range.end as usize]
+    }
+}

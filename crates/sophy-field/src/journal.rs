@@ -1,0 +1,93 @@
+use crate::{AutomatonIndex, InputIndex, LocationIndex, StateIndex};
+
+/// What an engine and the hybrid logic write down as a run goes on, in the order it happens. The recorder
+/// turns it into rows; nothing reads it back to decide anything.
+#[derive(Clone, Debug, Default)]
+pub struct Journal {
+    entries: Vec<Record>,
+    /// Whether segments are wanted at all.
+    pub wanted: bool,
+}
+
+/// One line of a [`Journal`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Record {
+    /// From `time` (s) on a state follows `c₀ + c₁ s + c₂ s²`.
+    Segment {
+        /// Start, s.
+        time: f64,
+        /// The state.
+        state: StateIndex,
+        /// In unit, unit/s, unit/s².
+        coefficients: [f64; 3],
+    },
+    /// From `time` (s) on an input follows `value + slope·s`.
+    Input {
+        /// Start, s.
+        time: f64,
+        /// The input.
+        input: InputIndex,
+        /// Value at the start, in the input's unit.
+        value: f64,
+        /// Unit/s.
+        slope: f64,
+    },
+    /// Micro-step `step` at `time` begins; what was written before holds up to it.
+    Jump {
+        /// The instant, s.
+        time: f64,
+        /// Micro-step, from 0.
+        step: u32,
+    },
+    /// An automaton enters a location.
+    Location {
+        /// The instant, s.
+        time: f64,
+        /// The automaton.
+        automaton: AutomatonIndex,
+        /// The location entered.
+        location: LocationIndex,
+    },
+}
+
+impl Record {
+    /// When.
+    #[inline]
+    pub fn time(&self) -> f64 {
+        match *self {
+            Record::Segment { time, .. }
+            | Record::Input { time, .. }
+            | Record::Jump { time, .. }
+            | Record::Location { time, .. } => time,
+        }
+    }
+}
+
+impl Journal {
+    /// A journal that keeps segments.
+    pub fn wanted() -> Self {
+        Journal { entries: Vec::new(), wanted: true }
+    }
+
+    /// Writes a line.
+    #[inline]
+    pub fn push(&mut self, record: Record) {
+        self.entries.push(record);
+    }
+
+    /// Number of lines.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether nothing was written.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// The lines in order; the journal is empty afterwards and keeps its memory.
+    pub fn drain(&mut self) -> impl Iterator<Item = Record> {
+        self.entries.drain(..)
+    }
+}

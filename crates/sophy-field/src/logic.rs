@@ -1,0 +1,153 @@
+use crate::{AutomatonIndex, EventIndex, Formula, LocationIndex, StateIndex, TransitionIndex, WatchIndex};
+use sophy_segment::Sign;
+
+/// The compiled transitions of a system.
+#[derive(Clone, Debug, Default)]
+pub struct Logic {
+    /// All transitions, in written order.
+    pub transitions: Vec<TransitionCode>,
+    /// Per automaton, per location: its outgoing transitions by priority, then in written order.
+    pub outgoing: Vec<Vec<Vec<TransitionIndex>>>,
+    /// Per event: the automaton that receives it.
+    pub receivers: Vec<AutomatonIndex>,
+    /// Per watch: the automata whose guards read it.
+    pub automata_of_watch: Vec<Vec<AutomatonIndex>>,
+}
+
+/// A transition τ = (q₁, q₂, j, r, e_in, e_out), thesis definition 8.5.
+#[derive(Clone, Debug)]
+pub struct TransitionCode {
+    /// Whose.
+    pub automaton: AutomatonIndex,
+    /// q₁.
+    pub source: LocationIndex,
+    /// q₂.
+    pub destination: LocationIndex,
+    /// j and e_in.
+    pub trigger: TriggerCode,
+    /// r: new values of states, read before the micro-step.
+    pub resets: Vec<(StateIndex, Formula)>,
+    /// e_out: the input events that receive what is emitted, in the order of emission.
+    pub emits: Vec<EventIndex>,
+    /// Smaller goes first.
+    pub priority: i32,
+}
+
+/// When a transition is taken.
+#[derive(Clone, Debug)]
+pub enum TriggerCode {
+    /// While the guard holds.
+    When(Guard),
+    /// On one of the events, if the guard holds.
+    On(Vec<EventIndex>, Guard),
+}
+
+/// A boolean combination of watch signs, in postfix form.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Guard {
+    /// Evaluated in order on a stack of booleans; exactly one remains.
+    pub steps: Vec<GuardStep>,
+}
+
+/// One step of a guard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GuardStep {
+    /// Pushes a constant.
+    Constant(bool),
+    /// Pushes whether the sign of a watch is among `signs` (bit 0 −, bit 1 zero, bit 2 +).
+    Sign(WatchIndex, u8),
+    /// Replaces the top by its negation.
+    Not,
+    /// Replaces the two on top by their conjunction.
+    And,
+    /// Replaces the two on top by their disjunction.
+    Or,
+}
+
+impl Guard {
+    /// Whether the guard holds, given the signs of watches.
+    pub fn holds(&self, sign: impl Fn(WatchIndex) -> Sign) -> bool {
+        // Bit stack: guards deeper than 64 are refused when they are compiled.
+        let (mut stack, mut depth) = (0u64, 0u32);
+        for step in &self.steps {
+            match *step {
+                GuardStep::Constant(value) => {
+                    stack |= u64::from(value) << depth;
+                    depth += 1;
+                }
+                GuardStep::Sign(watch, signs) => {
+                    let holds = signs & sign_bit(sign(watch)) != 0;
+                    stack |= u64::from(holds) << depth;
+                    depth += 1;
+                }
+                GuardStep::Not => stack ^= 1 << (depth - 1),
+                GuardStep::And | GuardStep::Or => {
+                    let (a, b) = (stack >> (depth - 2) & 1, stack >> (depth - 1) & 1);
+                    let both = if *step == GuardStep::And { a & b } else { a | b };
+                    depth -= 1;
+                    stack &= !(3 << (depth - 1));
+                    stack |= both << (depth - 1);
+                }
+            }
+        }
+        stack & 1 == 1
+    }
+
+    /// The watches it reads.
+    pub fn watches(&self) -> impl Iterator<Item = WatchIndex> {
+        self.steps.iter().filter_map(|step| match step {
+            GuardStep::Sign(watch, _) => Some(*watch),
+            _ => None,
+        })
+    }
+
+    /// The deepest the stack becomes.
+    pub fn depth(&self) -> usize {
+        let (mut depth, mut deepest) = (0usize, 0);
+        for step in &self.steps {
+            match step {
+                GuardStep::Constant(_) | GuardStep::Sign(..) => depth += 1,
+                GuardStep::And | GuardStep::Or => depth -= 1,
+                GuardStep::Not => {}
+            }
+            deepest = deepest.max(depth);
+        }
+        deepest
+    }
+}
+
+/// The bit of a sign in a set of signs.
+#[inline]
+pub fn sign_bit(sign: Sign) -> u8 {
+    match sign {
+        Sign::Negative => 1,
+        Sign::Zero => 2,
+        Sign::Positive => 4,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_guard_combines_signs() {
+        let (a, b) = (WatchIndex(0), WatchIndex(1));
+        // not a < 0 and (b > 0 or false)
+        let guard = Guard {
+            steps: vec![
+                GuardStep::Sign(a, 1),
+                GuardStep::Not,
+                GuardStep::Sign(b, 4),
+                GuardStep::Constant(false),
+                GuardStep::Or,
+                GuardStep::And,
+            ],
+        };
+        let signs = |x: Sign, y: Sign| move |w: WatchIndex| if w == a { x } else { y };
+        assert!(guard.holds(signs(Sign::Zero, Sign::Positive)));
+        assert!(!guard.holds(signs(Sign::Negative, Sign::Positive)));
+        assert!(!guard.holds(signs(Sign::Positive, Sign::Zero)));
+        assert_eq!(guard.depth(), 3);
+    }
+}

@@ -1,0 +1,47 @@
+use crate::control::Taken;
+use sophy_field::{Engine, Equations, LocationIndex, SourceIndex, TransitionIndex};
+
+/// Finds a round of micro-steps that returns exactly to where it began (Brent's algorithm: compare with a
+/// state kept at the last power of two).
+#[derive(Debug, Default)]
+pub(crate) struct Livelock {
+    kept: Vec<u64>,
+    kept_at: u32,
+}
+
+/// Rounds shorter than this are not looked for; ordinary chains of transitions end before.
+const FIRST: u32 = 16;
+
+impl Livelock {
+    pub(crate) fn begin(&mut self) {
+        self.kept_at = 0;
+    }
+
+    /// Looks at the situation after micro-step `step`; the transitions of the round if it closes.
+    pub(crate) fn after(
+        &mut self,
+        step: u32,
+        engine: &dyn Engine,
+        e: &Equations,
+        t: f64,
+        waiting: usize,
+        taken: &[Taken],
+    ) -> Option<Vec<TransitionIndex>> {
+        if step < FIRST {
+            return None;
+        }
+        let states = (0..e.layout.states).map(|s| engine.value(SourceIndex(s), t).to_bits());
+        let locations = engine.locations().iter().map(|LocationIndex(l)| u64::from(*l));
+        let situation = states.chain(locations).chain([waiting as u64]);
+        if self.kept_at > 0 && situation.clone().eq(self.kept.iter().copied()) {
+            let round = taken.iter().filter(|taken| taken.step >= self.kept_at && taken.time == t);
+            return Some(round.map(|taken| taken.transition).collect());
+        }
+        if step.is_power_of_two() {
+            self.kept.clear();
+            self.kept.extend(situation);
+            self.kept_at = step;
+        }
+        None
+    }
+}

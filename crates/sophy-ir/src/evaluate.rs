@@ -1,0 +1,62 @@
+use crate::graph::{Graph, Leaf, Node, NodeId};
+
+/// A number or a truth value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Real(f64),
+    /// A truth value.
+    Boolean(bool),
+}
+
+impl Value {
+    /// The number; a truth value counts as 1 or 0.
+    pub fn real(self) -> f64 {
+        match self {
+            Value::Real(x) => x,
+            Value::Boolean(b) => f64::from(u8::from(b)),
+        }
+    }
+
+    /// The truth value; a number other than 0 counts as true.
+    pub fn boolean(self) -> bool {
+        match self {
+            Value::Real(x) => x != 0.0,
+            Value::Boolean(b) => b,
+        }
+    }
+}
+
+/// The reference interpreter: the value of `root` when leaves have the values of `leaf`.
+///
+/// It walks the graph in its order and serves where speed does not matter, and as the witness that callable
+/// equations are compared with. Branches not taken are evaluated too, without effect on the result.
+pub fn evaluate(graph: &Graph, root: NodeId, leaf: &mut impl FnMut(Leaf) -> Value) -> Value {
+    let order = graph.reachable([root]);
+    let mut values = vec![Value::Real(f64::NAN); root.position() + 1];
+    for id in order {
+        let get = |operand: NodeId| values[operand.position()];
+        values[id.position()] = match graph.node(id) {
+            Node::Number(bits) => Value::Real(f64::from_bits(bits)),
+            Node::Boolean(b) => Value::Boolean(b),
+            Node::Leaf(reference) => leaf(reference),
+            Node::Unary(function, a) => Value::Real(function.apply(get(a).real())),
+            Node::Binary(function, a, b) => Value::Real(function.apply(get(a).real(), get(b).real())),
+            Node::IntegerPower(a, n) => Value::Real(crate::arithmetic::integer_power(get(a).real(), n)),
+            Node::Compare(comparison, a, b) => {
+                Value::Boolean(comparison.holds(get(a).real(), get(b).real()))
+            }
+            Node::Not(a) => Value::Boolean(!get(a).boolean()),
+            Node::And(a, b) => Value::Boolean(get(a).boolean() && get(b).boolean()),
+            Node::Or(a, b) => Value::Boolean(get(a).boolean() || get(b).boolean()),
+            Node::Select(c, a, b) => {
+                if get(c).boolean() {
+                    get(a)
+                } else {
+                    get(b)
+                }
+            }
+        };
+    }
+    values[root.position()]
+}

@@ -1,0 +1,230 @@
+//! Names of an experiment become indices of a system; every mistake is found before the run starts.
+
+use crate::experiment::{Experiment, ExperimentError, Method, QuantumRule, Signal, matches};
+use crate::inputs;
+use sophy_codegen::Parameters;
+use sophy_diagnostics::closest;
+use sophy_field::{EventIndex, InputIndex, LocationIndex};
+use sophy_ir::{Leaf, System, Value, evaluate};
+use sophy_solvers::Quantum;
+
+/// What an experiment says, in indices.
+pub(crate) struct Configured {
+    pub(crate) knobs: Parameters,
+    pub(crate) locations: Vec<LocationIndex>,
+    pub(crate) quanta: Vec<Quantum>,
+    pub(crate) signals: Vec<(InputIndex, Signal)>,
+    pub(crate) events: Vec<(f64, EventIndex)>,
+    pub(crate) order: u32,
+}
+
+/// Resolves everything but initial values, which need the values of parameters.
+pub(crate) fn configure(system: &System, experiment: &Experiment) -> Result<Configured, Vec<ExperimentError>> {
+    let mut errors = Vec::new();
+    let mut collect = |result: Result<(), ExperimentError>| errors.extend(result.err());
+    collect(times(experiment));
+    let mut knobs = Parameters::new();
+    for (name, value) in &experiment.knobs {
+        match system.parameter_named(name) {
+            Some(index) => {
+                knobs.insert(index, *value);
+            }
+            None => collect(Err(unknown("knobs", "parameter", name, &names(&system.parameters, |p| &p.name)))),
+        }
+    }
+    let mut locations: Vec<LocationIndex> = system.automata.iter().map(|a| a.initial).collect();
+    for (component, location) in &experiment.initial_locations {
+        collect(initial_location(system, component, location, &mut locations));
+    }
+    let states = names(&system.states, |s| &s.name);
+    for (name, _) in &experiment.initial {
+        if system.state_named(name).is_none() {
+            collect(Err(unknown("initial", "state", name, &states)));
+        }
+    }
+    for rule in &experiment.quanta {
+        collect(quantum_rule(rule, &states));
+    }
+    let default = Quantum::from_tolerance(experiment.tolerance);
+    let quanta = states
+        .iter()
+        .map(|name| {
+            let rule = experiment.quanta.iter().rev().find(|rule| matches(&rule.pattern, name));
+            rule.map_or(default, |rule| rule.quantum)
+        })
+        .collect();
+    let signals = match input_signals(system, experiment) {
+        Ok(signals) => signals,
+        Err(found) => {
+            found.into_iter().for_each(|error| collect(Err(error)));
+            Vec::new()
+        }
+    };
+    let mut events = Vec::new();
+    for (time, label) in &experiment.events {
+        let receivers: Vec<EventIndex> = (0..system.events.len())
+            .filter(|&i| system.events[i].name == *label || system.events[i].label == *label)
+            .map(EventIndex::new)
+            .collect();
+        if receivers.is_empty() {
+            collect(Err(unknown("input_events", "input event", label, &names(&system.events, |e| &e.name))));
+        }
+        events.extend(receivers.into_iter().map(|event| (*time, event)));
+    }
+    if errors.is_empty() {
+        let order = if experiment.method == Method::Qss1 { 1 } else { 2 };
+        Ok(Configured { knobs, locations, quanta, signals, events, order })
+    } else {
+        Err(errors)
+    }
+}
+
+fn times(experiment: &Experiment) -> Result<(), ExperimentError> {
+    let Experiment { start, stop, tolerance, every, .. } = *experiment;
+    if !start.is_finite() || !stop.is_finite() || stop < start {
+        return Err(ExperimentError::new("run.stop", format!("the run cannot go from {start} s to {stop} s"))
+            .help("give a stop time after the start, such as `--stop 20`"));
+    }
+    if !(tolerance > 0.0 && tolerance < 1.0) {
+        return Err(ExperimentError::new("engine.tolerance", format!("the tolerance {tolerance} is not in (0, 1)"))
+            .help("1e-3 is coarse, 1e-6 fine"));
+    }
+    if every.is_some_and(|step| !(step > 0.0 && step.is_finite())) {
+        return Err(ExperimentError::new("record.every", "the recording step must be positive")
+            .help("give seconds, such as `--every 0.01`"));
+    }
+    Ok(())
+}
+
+fn quantum_rule(rule: &QuantumRule, states: &[&str]) -> Result<(), ExperimentError> {
+    let QuantumRule { pattern, quantum } = rule;
+    if !(quantum.absolute > 0.0 && quantum.absolute.is_finite() && quantum.relative >= 0.0) {
+        return Err(ExperimentError::new(
+            format!("engine.quantum.{pattern}"),
+            format!("the quantum of `{pattern}` must be positive, it is {}", quantum.absolute),
+        ));
+    }
+    if !states.iter().any(|name| matches(pattern, name)) && pattern != "*" {
+        return Err(unknown("engine.quantum", "state", pattern, states));
+    }
+    Ok(())
+}
+
+fn initial_location(
+    system: &System,
+    component: &str,
+    location: &str,
+    locations: &mut [LocationIndex],
+) -> Result<(), ExperimentError> {
+    let Some(position) = system.automata.iter().position(|a| a.name == component) else {
+        return Err(unknown("initial_location", "component", component, &names(&system.automata, |a| &a.name)));
+    };
+    let automaton = &system.automata[position];
+    match automaton.locations.iter().position(|l| l.name == location) {
+        Some(found) => {
+            locations[position] = LocationIndex::new(found);
+            Ok(())
+        }
+        None => {
+            Err(unknown("initial_location", "location", location, &names(&automaton.locations, |l| &l.name)))
+        }
+    }
+}
+
+fn input_signals(
+    system: &System,
+    experiment: &Experiment,
+) -> Result<Vec<(InputIndex, Signal)>, Vec<ExperimentError>> {
+    let mut errors = Vec::new();
+    for (name, signal) in &experiment.inputs {
+        if system.input_named(name).is_none() {
+            errors.push(unknown("inputs", "input", name, &names(&system.inputs, |u| &u.name)));
+        } else {
+            errors.extend(inputs::check(name, signal, experiment.start, experiment.stop).err());
+        }
+    }
+    let mut signals = Vec::new();
+    for (position, input) in system.inputs.iter().enumerate() {
+        match experiment.inputs.iter().rev().find(|(name, _)| *name == input.name) {
+            Some((_, signal)) => signals.push((InputIndex::new(position), signal.clone())),
+            None => {
+                let unit = input.unit.as_ref().map(|u| format!(" ({u})")).unwrap_or_default();
+                let name = &input.name;
+                errors.push(
+                    ExperimentError::new(
+                        format!("inputs.{name}"),
+                        format!("input `{name}`{unit} of the model is not given"),
+                    )
+                    .help(format!(
+                        "give it a CSV file with a column `time` in s (`--input {name}=FILE.csv`), or a constant (`--input {name}=VALUE`)"
+                    )),
+                );
+            }
+        }
+    }
+    if errors.is_empty() { Ok(signals) } else { Err(errors) }
+}
+
+/// Initial values: those of the experiment, else those of the model.
+pub(crate) fn initial_states(
+    system: &System,
+    experiment: &Experiment,
+    parameters: &[f64],
+    inputs: &[[f64; 2]],
+) -> Result<Vec<f64>, Vec<ExperimentError>> {
+    let mut errors = Vec::new();
+    let mut leaf = |leaf: Leaf| {
+        Value::Real(match leaf {
+            Leaf::Parameter(i) => parameters.get(i.position()).copied().unwrap_or(f64::NAN),
+            Leaf::Input(i) => inputs.get(i.position()).map_or(f64::NAN, |line| line[0]),
+            Leaf::Time => experiment.start,
+            _ => f64::NAN,
+        })
+    };
+    let mut values = Vec::with_capacity(system.states.len());
+    for state in &system.states {
+        let given = experiment.initial.iter().rev().find(|(name, _)| *name == state.name);
+        let value = match (given, state.initial) {
+            (Some((_, value)), _) => Some(*value),
+            (None, Some(node)) => Some(evaluate(&system.graph, node, &mut leaf).real()),
+            (None, None) => None,
+        };
+        let name = &state.name;
+        match value {
+            Some(value) if value.is_finite() => values.push(value),
+            Some(value) => errors.push(ExperimentError::new(
+                format!("initial.{name}"),
+                format!("the initial value of state `{name}` is {value}"),
+            )),
+            None => errors.push(
+                ExperimentError::new(
+                    format!("initial.{name}"),
+                    format!("state `{name}` has no initial value"),
+                )
+                .help(format!(
+                    "give one in the experiment (`[initial] \"{name}\" = 0`, `--initial {name}=0`) or in the model (`<hint hintname=\"initial {name}\">0</hint>`)"
+                )),
+            ),
+        }
+    }
+    if errors.is_empty() { Ok(values) } else { Err(errors) }
+}
+
+/// `name` is not one of `known`.
+pub(crate) fn unknown(item: &str, kind: &str, name: &str, known: &[&str]) -> ExperimentError {
+    let error =
+        ExperimentError::new(format!("{item}.{name}"), format!("the model has no {kind} `{name}`"));
+    match closest(name, known.iter().copied()) {
+        Some(meant) => error.help(format!("did you mean `{meant}`?")),
+        None if known.is_empty() => error.help(format!("the model has no {kind}s at all")),
+        None => {
+            let shown: Vec<String> = known.iter().take(12).map(|name| format!("`{name}`")).collect();
+            let more = if known.len() > 12 { ", …" } else { "" };
+            error.help(format!("it has {}{more}", shown.join(", ")))
+        }
+    }
+}
+
+pub(crate) fn names<T>(items: &[T], name: impl Fn(&T) -> &String) -> Vec<&str> {
+    items.iter().map(|item| name(item).as_str()).collect()
+}

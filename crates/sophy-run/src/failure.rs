@@ -1,0 +1,218 @@
+//! A run that cannot go on says what, where, why, and with which values.
+
+use sophy_diagnostics::{Code, Diagnostic, Severity, Span};
+use sophy_field::{Engine, Fault, LocationIndex, StateIndex, TransitionIndex, WatchIndex};
+use sophy_hybrid::HybridError;
+use sophy_ir::{Leaf, System};
+
+/// Why a run stopped before its end. What was recorded until then is complete.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Simulated time reached, s.
+    pub time: f64,
+    /// One sentence.
+    pub message: String,
+    /// Kind of failure.
+    pub code: Code,
+    /// The equation or guard, where it stands.
+    pub span: Option<Span>,
+    /// Facts: the equation, values.
+    pub notes: Vec<String>,
+    /// Ways out.
+    pub helps: Vec<String>,
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl Failure {
+    /// As a message with its source excerpt, where the model has one.
+    pub fn diagnostic(&self) -> Diagnostic {
+        Diagnostic {
+            code: self.code,
+            severity: Severity::Error,
+            message: self.message.clone(),
+            labels: self
+                .span
+                .map(|span| sophy_diagnostics::Label { span, message: String::new() })
+                .into_iter()
+                .collect(),
+            notes: self.notes.clone(),
+            helps: self.helps.clone(),
+        }
+    }
+
+    pub(crate) fn new(error: &HybridError, system: &System, engine: &dyn Engine) -> Self {
+        let reporter = Reporter { system, engine };
+        match error {
+            HybridError::Engine(fault) => reporter.fault(*fault),
+            HybridError::Livelock { time, steps, cycle, exact } => {
+                reporter.livelock(*time, *steps, cycle, *exact)
+            }
+        }
+    }
+}
+
+struct Reporter<'a> {
+    system: &'a System,
+    engine: &'a dyn Engine,
+}
+
+impl Reporter<'_> {
+    fn fault(&self, fault: Fault) -> Failure {
+        match fault {
+            Fault::NotFinite { state, time, value } => self.rate(state, time, value),
+            Fault::StateNotFinite { state, time, value } => {
+                let name = &self.system.states[state.position()].name;
+                self.failure("SR0002", time, format!("state `{name}` is {value} at t = {time} s"))
+            }
+            Fault::WatchNotFinite { watch, time, value } => {
+                let text = self.watch_text(watch);
+                let mut failure = self.failure(
+                    "SR0003",
+                    time,
+                    format!("`{text}` of a condition is {value} at t = {time} s"),
+                );
+                failure.notes.push(self.values(self.watch_sources(watch), time));
+                failure
+            }
+            Fault::Undecided { watch, time } => {
+                let text = self.watch_text(watch);
+                let mut failure = self.failure(
+                    "SR0004",
+                    time,
+                    format!("it cannot be decided whether `{text}` crosses zero at t = {time} s"),
+                );
+                failure.notes.push("the quantity is zero to rounding over an interval of time".to_owned());
+                failure.notes.push(self.values(self.watch_sources(watch), time));
+                failure.helps.push(
+                    "write the condition with a margin (`> 1e-9` instead of `> 0`), or simplify it".to_owned(),
+                );
+                failure
+            }
+            Fault::Resolution { state, time } => {
+                let name = &self.system.states[state.position()].name;
+                let mut failure = self.failure(
+                    "SR0005",
+                    time,
+                    format!("the resolution of time is exhausted by state `{name}` at t = {time} s"),
+                );
+                failure.notes.push(self.equation(state));
+                failure.notes.push(self.values(self.rate_sources(state), time));
+                failure.helps.push(format!("give `{name}` a larger quantum"));
+                failure
+            }
+            Fault::Chattering { watch, time } => {
+                let text = self.watch_text(watch);
+                let mut failure = self.failure(
+                    "SR0006",
+                    time,
+                    format!("`{text}` changes its sign again and again at t = {time} s"),
+                );
+                failure.notes.push(
+                    "on both sides of the surface the motion points at it: sliding motion, which this \
+                     version does not continue"
+                        .to_owned(),
+                );
+                failure.helps.push(
+                    "give the switch a hysteresis, or smooth it (a steep `tanh` instead of `sign`)".to_owned(),
+                );
+                failure
+            }
+        }
+    }
+
+    fn rate(&self, state: StateIndex, time: f64, value: f64) -> Failure {
+        let name = &self.system.states[state.position()].name;
+        let mut failure =
+            self.failure("SR0001", time, format!("the derivative of `{name}` is {value} at t = {time} s"));
+        failure.span = self.rate_span(state);
+        failure.notes.push(self.equation(state));
+        failure.notes.push(self.values(self.rate_sources(state), time));
+        failure
+    }
+
+    fn livelock(&self, time: f64, steps: u32, cycle: &[TransitionIndex], exact: bool) -> Failure {
+        let names: Vec<String> = cycle.iter().map(|&t| self.transition(t)).collect();
+        let mut failure = self.failure(
+            "SR0007",
+            time,
+            format!("livelock at t = {time} s: {steps} transitions were taken and time stands still"),
+        );
+        failure.span = cycle.first().and_then(|t| self.system.transitions[t.position()].span);
+        let how = if exact { "this round returns exactly to where it began" } else { "the last transitions" };
+        failure.notes.push(format!("{how}: {}", names.join(", ")));
+        failure.helps.push(
+            "a transition is taken as long as its condition holds: let a reset end the condition, or \
+             separate the thresholds of the two ways (hysteresis)"
+                .to_owned(),
+        );
+        failure
+    }
+
+    fn failure(&self, code: &'static str, time: f64, message: String) -> Failure {
+        Failure { time, message, code: Code(code), span: None, notes: Vec::new(), helps: Vec::new() }
+    }
+
+    fn transition(&self, transition: TransitionIndex) -> String {
+        let t = &self.system.transitions[transition.position()];
+        let automaton = &self.system.automata[t.automaton.position()];
+        let name = |l: LocationIndex| &automaton.locations[l.position()].name;
+        format!("`{}` ({} → {})", t.name, name(t.source), name(t.destination))
+    }
+
+    fn location_of(&self, state: StateIndex) -> LocationIndex {
+        let owner = self.system.states[state.position()].rate.owner;
+        self.engine.locations()[owner.position()]
+    }
+
+    fn rate_span(&self, state: StateIndex) -> Option<Span> {
+        self.system.states[state.position()].rate.spans[self.location_of(state).position()]
+    }
+
+    fn equation(&self, state: StateIndex) -> String {
+        let (s, location) = (&self.system.states[state.position()], self.location_of(state));
+        let owner = &self.system.automata[s.rate.owner.position()];
+        let place = match owner.locations.len() {
+            1 => String::new(),
+            _ => format!(" in location `{}`", owner.locations[location.position()].name),
+        };
+        format!("the equation{place} is der({}) = {}", s.name, self.system.text(s.rate.at(location)))
+    }
+
+    fn rate_sources(&self, state: StateIndex) -> Vec<Leaf> {
+        let row = &self.system.states[state.position()].rate;
+        self.system.graph.dependencies([row.at(self.location_of(state))]).into_iter().collect()
+    }
+
+    fn watch_text(&self, watch: WatchIndex) -> String {
+        self.system.text(self.system.watches[watch.position()].difference)
+    }
+
+    fn watch_sources(&self, watch: WatchIndex) -> Vec<Leaf> {
+        let node = self.system.watches[watch.position()].difference;
+        self.system.graph.dependencies([node]).into_iter().collect()
+    }
+
+    fn values(&self, leaves: Vec<Leaf>, time: f64) -> String {
+        let states = self.system.states.len() as u32;
+        let values: Vec<String> = leaves
+            .into_iter()
+            .filter_map(|leaf| {
+                let source = match leaf {
+                    Leaf::State(i) => i.0,
+                    Leaf::Input(i) => states + i.0,
+                    _ => return None,
+                };
+                let value = self.engine.value(sophy_field::SourceIndex(source), time);
+                Some(format!("{} = {value}", self.system.leaf_name(leaf)))
+            })
+            .collect();
+        if values.is_empty() { format!("at t = {time} s") } else { format!("with {}", values.join(", ")) }
+    }
+}

@@ -1,0 +1,296 @@
+use crate::configure::{configure, initial_states};
+use crate::experiment::{Experiment, ExperimentError};
+use crate::failure::Failure;
+use crate::inputs::Inputs;
+use sophy_codegen::{Compiled, compile};
+use sophy_field::{
+    AutomatonIndex, Changes, Engine, InputIndex, Journal, LocationIndex, SourceIndex, Start, StateIndex,
+    Statistics, Stop,
+};
+use sophy_hybrid::{Accumulation, Control, Counts, HybridError, Taken};
+use sophy_ir::System;
+use sophy_solvers::{Qss, Quantum, Settings};
+use std::sync::Arc;
+
+/// One run of a system under an experiment.
+///
+/// [`Run::advance`] goes on to a time; stopping there and going on later gives the same bits as not stopping.
+/// [`Run::journal`] collects what happened until someone drains it.
+#[derive(Debug)]
+pub struct Run {
+    system: Arc<System>,
+    compiled: Arc<Compiled>,
+    engine: Box<dyn Engine>,
+    control: Control,
+    inputs: Inputs,
+    changes: Changes,
+    /// What happened since it was last drained.
+    pub journal: Journal,
+    /// Transitions taken since they were last drained.
+    pub taken: Vec<Taken>,
+    quanta: Vec<Quantum>,
+    time: f64,
+    /// Values at the start, for recorders.
+    start_inputs: Vec<[f64; 2]>,
+    start_locations: Vec<LocationIndex>,
+}
+
+/// Why [`Run::advance`] came back.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pause {
+    /// The time asked for is reached.
+    Reached,
+    /// The budget of steps is used up; call again.
+    Budget,
+    /// Transitions accumulate: time cannot go beyond the limit.
+    Zeno(Accumulation),
+}
+
+/// Work done since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunStatistics {
+    /// The engine's.
+    pub engine: Statistics,
+    /// The hybrid logic's.
+    pub hybrid: Counts,
+}
+
+/// The whole state of a run at one time, to go on from later.
+#[derive(Debug)]
+pub struct Snapshot {
+    engine: Box<dyn Engine>,
+    control: Control,
+    inputs: Inputs,
+    time: f64,
+}
+
+impl Run {
+    /// Configures a run and takes the micro-steps of its start.
+    ///
+    /// # Errors
+    /// All [`ExperimentError`]s at once, or the [`Failure`] of the start.
+    pub fn new(system: Arc<System>, experiment: &Experiment) -> Result<Self, StartError> {
+        let configured = configure(&system, experiment)?;
+        let compiled = compile(&system, &configured.knobs, configured.order)
+            .map_err(|error| vec![ExperimentError::new("knobs", error.to_string())])?;
+        let mut inputs = Inputs::new(configured.signals, configured.events);
+        let lines = inputs.begin(experiment.start);
+        let states = initial_states(&system, experiment, &compiled.parameters, &lines)?;
+        let equations = &compiled.equations;
+        let settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
+        let engine: Box<dyn Engine> = match configured.order {
+            1 => Box::new(Qss::<1>::new(equations, settings)),
+            _ => Box::new(Qss::<2>::new(equations, settings)),
+        };
+        let control = Control::new(equations, &compiled.logic);
+        let mut run = Run {
+            system,
+            engine,
+            control,
+            inputs,
+            changes: Changes::default(),
+            journal: Journal::wanted(),
+            taken: Vec::new(),
+            quanta: configured.quanta,
+            time: experiment.start,
+            start_inputs: lines,
+            start_locations: configured.locations,
+            compiled: Arc::new(compiled),
+        };
+        let start = Start {
+            time: experiment.start,
+            states: &states,
+            inputs: &run.start_inputs,
+            locations: &run.start_locations,
+        };
+        let compiled = Arc::clone(&run.compiled);
+        let started = run.engine.start(&compiled.equations, &start, &mut run.journal);
+        if let Err(fault) = started {
+            return Err(StartError::Failure(Box::new(run.failure(&fault.into()))));
+        }
+        match run.react(experiment.start) {
+            Ok(_) => Ok(run),
+            Err(error) => Err(StartError::Failure(Box::new(run.failure(&error)))),
+        }
+    }
+
+    /// Goes on to `until` (s, inclusive), at most for about `budget` steps.
+    ///
+    /// # Errors
+    /// [`Failure`] when the run cannot go on; what is in the journal stays valid.
+    pub fn advance(&mut self, until: f64, budget: u64) -> Result<Pause, Box<Failure>> {
+        match self.go_on(until, budget) {
+            Ok(pause) => Ok(pause),
+            Err(error) => Err(Box::new(self.failure(&error))),
+        }
+    }
+
+    fn go_on(&mut self, until: f64, budget: u64) -> Result<Pause, HybridError> {
+        let compiled = Arc::clone(&self.compiled);
+        loop {
+            let scheduled = self.inputs.next_time();
+            let horizon = if scheduled < until { scheduled } else { until };
+            let stop = self.engine.advance(&compiled.equations, horizon, budget, &mut self.journal)?;
+            let instant = match stop {
+                Stop::Crossed(time) => time,
+                Stop::Horizon if scheduled <= until => scheduled,
+                Stop::Horizon => {
+                    self.time = until;
+                    return Ok(Pause::Reached);
+                }
+                Stop::Budget(time) => {
+                    self.time = time;
+                    return Ok(Pause::Budget);
+                }
+            };
+            self.time = instant;
+            if let Some(accumulation) = self.react(instant)? {
+                return Ok(Pause::Zeno(accumulation));
+            }
+            if self.journal.len() as u64 >= budget {
+                return Ok(Pause::Budget);
+            }
+        }
+    }
+
+    /// Takes the micro-steps of an instant, inputs due first.
+    fn react(&mut self, instant: f64) -> Result<Option<Accumulation>, HybridError> {
+        let compiled = Arc::clone(&self.compiled);
+        self.changes.clear();
+        for event in self.inputs.due(instant, &mut self.changes) {
+            self.control.post(&compiled.logic, event);
+        }
+        self.react_to(instant, &compiled)
+    }
+
+    fn react_to(
+        &mut self,
+        instant: f64,
+        compiled: &Compiled,
+    ) -> Result<Option<Accumulation>, HybridError> {
+        self.control.react(
+            self.engine.as_mut(),
+            &compiled.equations,
+            &compiled.logic,
+            instant,
+            &self.changes,
+            &mut self.journal,
+            &mut self.taken,
+        )
+    }
+
+    /// Changes states from outside at the present time (an estimator's update), as one micro-step: guards are
+    /// decided again, and transitions enabled now are taken at once (thesis §8.3.3).
+    ///
+    /// # Errors
+    /// [`Failure`] when a value is not finite or the run cannot go on.
+    pub fn reset_states(&mut self, values: &[(StateIndex, f64)]) -> Result<Option<Accumulation>, Box<Failure>> {
+        let compiled = Arc::clone(&self.compiled);
+        self.changes.clear();
+        self.changes.states.extend_from_slice(values);
+        let time = self.time;
+        self.react_to(time, &compiled).map_err(|error| Box::new(self.failure(&error)))
+    }
+
+    /// Gives the equations so far as a value to return to.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            engine: self.engine.snapshot(),
+            control: self.control.clone(),
+            inputs: self.inputs.clone(),
+            time: self.time,
+        }
+    }
+
+    /// Goes back to a snapshot of the same run; journal and log start empty.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.engine = snapshot.engine.snapshot();
+        self.control = snapshot.control.clone();
+        self.inputs = snapshot.inputs.clone();
+        self.time = snapshot.time;
+        let _ = self.journal.drain();
+        self.taken.clear();
+    }
+
+    fn failure(&self, error: &HybridError) -> Failure {
+        Failure::new(error, &self.system, self.engine.as_ref())
+    }
+
+    /// Time reached, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The system that runs.
+    pub fn system(&self) -> &Arc<System> {
+        &self.system
+    }
+
+    /// Its callable equations.
+    pub fn compiled(&self) -> &Arc<Compiled> {
+        &self.compiled
+    }
+
+    /// x of a state at the present time.
+    pub fn state(&self, state: StateIndex) -> f64 {
+        self.engine.value(SourceIndex(state.0), self.time)
+    }
+
+    /// q of a state at `time` on its present quantised trajectory, and x there.
+    pub fn quantised(&self, state: StateIndex, time: f64) -> (f64, f64) {
+        (self.engine.quantised(state, time), self.engine.value(SourceIndex(state.0), time))
+    }
+
+    /// Value of an input at the present time.
+    pub fn input(&self, input: InputIndex) -> f64 {
+        let source = SourceIndex(self.compiled.equations.layout.states + input.0);
+        self.engine.value(source, self.time)
+    }
+
+    /// Present location of an automaton.
+    pub fn location(&self, automaton: AutomatonIndex) -> LocationIndex {
+        self.engine.locations()[automaton.position()]
+    }
+
+    /// ∂f/∂z at the present time: state, source, value.
+    pub fn jacobian(&self) -> Vec<(StateIndex, SourceIndex, f64)> {
+        self.engine.jacobian(&self.compiled.equations, self.time)
+    }
+
+    /// The quanta in use.
+    pub fn quanta(&self) -> &[Quantum] {
+        &self.quanta
+    }
+
+    /// Value and slope of every input at the start.
+    pub fn start_inputs(&self) -> &[[f64; 2]] {
+        &self.start_inputs
+    }
+
+    /// Locations at the start, before its micro-steps.
+    pub fn start_locations(&self) -> &[LocationIndex] {
+        &self.start_locations
+    }
+
+    /// Work done so far.
+    pub fn statistics(&self) -> RunStatistics {
+        RunStatistics { engine: self.engine.statistics(), hybrid: self.control.counts() }
+    }
+}
+
+/// A run cannot start.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// The experiment does not fit the model.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Experiment(Vec<ExperimentError>),
+    /// The first instant fails.
+    #[error(transparent)]
+    Failure(Box<Failure>),
+}
+
+impl From<Vec<ExperimentError>> for StartError {
+    fn from(errors: Vec<ExperimentError>) -> Self {
+        StartError::Experiment(errors)
+    }
+}

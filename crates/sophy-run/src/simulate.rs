@@ -1,0 +1,184 @@
+use crate::experiment::{Experiment, ExperimentError};
+use crate::failure::Failure;
+use crate::recorder::Recorder;
+use crate::run::{Pause, Run, RunStatistics, StartError};
+use sophy_hybrid::{Accumulation, Taken};
+use sophy_record::{EventRecord, Sink, SinkError};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// How a run ended. None of these is an error.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// The stop time was reached.
+    Reached,
+    /// The observer asked to stop.
+    Interrupted,
+    /// Transitions accumulate before the stop time.
+    Zeno(Accumulation),
+}
+
+/// What a run has come to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Wall time since the start of the run.
+    pub elapsed: Duration,
+    /// Work done.
+    pub statistics: RunStatistics,
+}
+
+/// Looks on while a run goes on; nothing it does changes a number.
+pub trait Observer {
+    /// Called every few milliseconds; `Break` ends the run with complete files.
+    fn progress(&mut self, progress: &Progress) -> ControlFlow<()>;
+
+    /// Transitions in the order they were taken.
+    ///
+    /// # Errors
+    /// What keeps them from being written; the run stops.
+    fn events(&mut self, events: &[EventRecord]) -> Result<(), SinkError>;
+
+    /// Called at least twice a second of wall time, when sinks have been flushed.
+    ///
+    /// # Errors
+    /// As [`Observer::events`].
+    fn flush(&mut self) -> Result<(), SinkError> {
+        Ok(())
+    }
+}
+
+/// An observer that only lets the run go on.
+impl Observer for () {
+    fn progress(&mut self, _: &Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn events(&mut self, _: &[EventRecord]) -> Result<(), SinkError> {
+        Ok(())
+    }
+}
+
+/// An observer that keeps the events.
+impl Observer for Vec<EventRecord> {
+    fn progress(&mut self, _: &Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn events(&mut self, events: &[EventRecord]) -> Result<(), SinkError> {
+        self.extend_from_slice(events);
+        Ok(())
+    }
+}
+
+/// What there is to say of a run that ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Simulated time reached, s.
+    pub time: f64,
+    /// Wall time of the run itself.
+    pub elapsed: Duration,
+    /// Work done.
+    pub statistics: RunStatistics,
+    /// Rows recorded.
+    pub rows: u64,
+}
+
+/// A run did not end well.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulateError {
+    /// The experiment does not fit the model.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Experiment(Vec<ExperimentError>),
+    /// The run cannot go on. Sinks hold everything until then.
+    #[error(transparent)]
+    Failure(Box<Failure>),
+    /// A result cannot be written.
+    #[error(transparent)]
+    Sink(#[from] SinkError),
+}
+
+impl From<StartError> for SimulateError {
+    fn from(error: StartError) -> Self {
+        match error {
+            StartError::Experiment(errors) => SimulateError::Experiment(errors),
+            StartError::Failure(failure) => SimulateError::Failure(failure),
+        }
+    }
+}
+
+/// Engine steps between two looks at the clock.
+const BURST: u64 = 16_384;
+/// Wall time between two flushes.
+const FLUSH_EVERY: Duration = Duration::from_millis(400);
+
+/// Runs `run` to the experiment's stop, recording into `sinks`. The sinks are not finished: their owner adds
+/// the outcome.
+///
+/// # Errors
+/// [`SimulateError`]; the sinks have then been given everything up to the failure.
+pub fn simulate(
+    run: &mut Run,
+    recorder: &mut Recorder,
+    experiment: &Experiment,
+    sinks: &mut [&mut dyn Sink],
+    observer: &mut dyn Observer,
+) -> Result<Report, SimulateError> {
+    let begin = Instant::now();
+    let mut flushed = begin;
+    let outcome = loop {
+        let pause = run.advance(experiment.stop, BURST);
+        recorder.consume(run, sinks)?;
+        let events: Vec<EventRecord> = run.taken.drain(..).collect::<Vec<_>>().iter().map(|t| event(run, t)).collect();
+        observer.events(&events)?;
+        let finished = match pause {
+            Ok(Pause::Budget) => None,
+            Ok(Pause::Reached) => Some(Outcome::Reached),
+            Ok(Pause::Zeno(accumulation)) => Some(Outcome::Zeno(accumulation)),
+            Err(failure) => {
+                recorder.finish(run, sinks)?;
+                return Err(SimulateError::Failure(failure));
+            }
+        };
+        if let Some(outcome) = finished {
+            break outcome;
+        }
+        if flushed.elapsed() >= FLUSH_EVERY {
+            for sink in sinks.iter_mut() {
+                sink.flush()?;
+            }
+            observer.flush()?;
+            flushed = Instant::now();
+        }
+        let progress =
+            Progress { time: run.time(), elapsed: begin.elapsed(), statistics: run.statistics() };
+        if observer.progress(&progress).is_break() {
+            break Outcome::Interrupted;
+        }
+    };
+    recorder.finish(run, sinks)?;
+    Ok(Report {
+        outcome,
+        time: run.time(),
+        elapsed: begin.elapsed(),
+        statistics: run.statistics(),
+        rows: recorder.rows(),
+    })
+}
+
+fn event(run: &Run, taken: &Taken) -> EventRecord {
+    let system = run.system();
+    let transition = &system.transitions[taken.transition.position()];
+    let automaton = &system.automata[transition.automaton.position()];
+    EventRecord {
+        time: taken.time,
+        step: taken.step,
+        component: automaton.name.clone(),
+        transition: transition.name.clone(),
+        from: automaton.locations[transition.source.position()].name.clone(),
+        to: automaton.locations[transition.destination.position()].name.clone(),
+    }
+}

@@ -1,0 +1,12 @@
+//! The first instant at which a function leaves the sign decided for it.
+//!
+//! Both searches share their conventions: the decided sign is the one just right of the start (limit from
+//! the right), touching without crossing does not count, and a function that begins with the other sign
+//! crosses at the start, the joint of two segments.
+
+mod bracket;
+mod enclosed;
+mod parabola;
+
+pub use enclosed::{Search, Start, first_crossing};
+pub use parabola::parabola_crossing;

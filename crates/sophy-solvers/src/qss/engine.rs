@@ -1,0 +1,435 @@
+use super::record::Record;
+use super::settings::Settings;
+use super::watches::WatchRecord;
+use sophy_field::{
+    Agenda, Block, Changes, Engine, Entry, Equations, Fault, Journal, LocationIndex, RowResult, SourceIndex,
+    Start, StateIndex, Statistics, Stop, WatchIndex,
+};
+use sophy_segment::{Interval, Sign};
+
+/// The quantised-state engine of order `ORDER`: 1 is QSS1, 2 is QSS2.
+///
+/// Equations must have been compiled for the same order. Slots of the agenda: the states (change of q, or
+/// evaluation of a rate that bends), then the watches.
+#[derive(Clone, Debug)]
+pub struct Qss<const ORDER: usize> {
+    pub(super) settings: Settings,
+    /// States, inputs, time.
+    pub(super) records: Vec<Record>,
+    /// When the rate of a state must be evaluated again because it bends, s.
+    refresh: Vec<f64>,
+    /// How often a state was scheduled at its own instant.
+    repeats: Vec<u32>,
+    pub(super) watches: Vec<WatchRecord>,
+    pub(super) locations: Vec<LocationIndex>,
+    pub(super) agenda: Agenda,
+    /// Memory of the programs.
+    pub(super) memory: Vec<f64>,
+    /// The same for enclosures.
+    pub(super) enclosed: Vec<Interval>,
+    /// Watches to look at again before time goes on.
+    pub(super) dirty: Vec<WatchIndex>,
+    /// Watches of guards whose sign changed, for the hybrid logic.
+    pub(super) changed: Vec<WatchIndex>,
+    /// Entries to evaluate in a change; kept for its memory.
+    entries: Vec<Entry>,
+    pub(super) statistics: Statistics,
+}
+
+/// How often a slot may be scheduled at its own instant.
+pub(super) const MOST_REPEATS: u32 = 100;
+
+impl<const ORDER: usize> Qss<ORDER> {
+    /// An engine that has not been started.
+    pub fn new(equations: &Equations, settings: Settings) -> Self {
+        let layout = equations.layout;
+        let (states, sources, watches) =
+            (layout.states as usize, layout.sources(), equations.watches.len());
+        Qss {
+            settings,
+            records: vec![Record::line(0.0, 0.0, 0.0); sources],
+            refresh: vec![f64::INFINITY; states],
+            repeats: vec![0; states],
+            watches: vec![WatchRecord::default(); watches],
+            locations: vec![LocationIndex(0); equations.automata.len()],
+            agenda: Agenda::new(states + watches),
+            memory: equations.image.clone(),
+            enclosed: equations.image.iter().map(|&value| Interval::point(value)).collect(),
+            dirty: Vec::with_capacity(watches),
+            changed: Vec::with_capacity(watches),
+            entries: Vec::new(),
+            statistics: Statistics::default(),
+        }
+    }
+
+    /// A state's quantised trajectory has come to the edge of its band (algorithm 3.1).
+    #[inline]
+    fn step(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Fault> {
+        if self.records[i].tq == t {
+            self.repeats[i] += 1;
+            if self.repeats[i] > MOST_REPEATS {
+                return Err(Fault::Resolution { state: StateIndex::new(i), time: t });
+            }
+        } else {
+            self.repeats[i] = 0;
+        }
+        // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
+        let record = &mut self.records[i];
+        let x = record.x_at(t);
+        record.q = [x, if ORDER > 1 { record.slope_at(t) } else { 0.0 }];
+        record.tq = t;
+        record.quantum = self.settings.quanta[i].at(x);
+        self.statistics.steps += 1;
+        // λ: what depends on it is evaluated, eq. (3.2.2)
+        for &entry in e.entries(&e.influence[i]) {
+            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+        }
+        self.schedule(i, t);
+        Ok(())
+    }
+
+    /// Evaluates the rates of a block at `t` (algorithm 3.2).
+    #[inline]
+    fn evaluate(&mut self, e: &Equations, block: &Block, t: f64, journal: &mut Journal) -> Result<(), Fault> {
+        let orders = if block.bends { ORDER + 1 } else { ORDER };
+        self.run_block(e, block, t, orders);
+        for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
+            self.set_rate(e, *row, t, e.result(row.result, &self.memory, orders), journal)?;
+        }
+        Ok(())
+    }
+
+    /// Evaluates the block of an entry.
+    pub(super) fn evaluate_entry(
+        &mut self,
+        e: &Equations,
+        entry: Entry,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
+        self.evaluate(e, e.block(entry, &self.locations), t, journal)
+    }
+
+    /// Brings the quantised jets that a block reads to `t` and runs its program.
+    #[inline]
+    fn run_block(&mut self, e: &Equations, block: &Block, t: f64, orders: usize) {
+        for &source in e.sources(&block.sources) {
+            let record = &self.records[source.position()];
+            let at = e.layout.quantised_of(source);
+            self.memory[at] = record.q_at(t);
+            self.memory[at + 1] = record.q[1];
+        }
+        (e.run)(&e.programs[block.program as usize], &mut self.memory, orders);
+    }
+
+    /// δ_ext: a new rate arrives (algorithm 3.1). `rate` holds f, ḟ, ½f̈ along q.
+    #[inline]
+    fn set_rate(
+        &mut self,
+        e: &Equations,
+        row: RowResult,
+        t: f64,
+        rate: [f64; 3],
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
+        let [f, f1, f2] = rate;
+        if !(f + f1).is_finite() {
+            let value = if f.is_finite() { f1 } else { f };
+            return Err(Fault::NotFinite { state: row.state, time: t, value });
+        }
+        let i = row.state.position();
+        let record = &mut self.records[i];
+        record.x = [record.x_at(t), f, if ORDER > 1 { 0.5 * f1 } else { 0.0 }];
+        record.tx = t;
+        self.statistics.rates += 1;
+        self.refresh[i] = if row.bends { t + self.trusted_for(i, f1, f2) } else { f64::INFINITY };
+        if journal.wanted {
+            let coefficients = self.records[i].x;
+            journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients });
+        }
+        self.schedule(i, t);
+        for &watch in &e.watches_of_source[i] {
+            self.mark(watch);
+        }
+        Ok(())
+    }
+
+    /// How long until the part of the rate that x leaves out has moved it by a quantum.
+    #[inline]
+    fn trusted_for(&self, i: usize, f1: f64, f2: f64) -> f64 {
+        let quantum = self.records[i].quantum;
+        // QSS2 leaves out ∫½f̈s² = ½f̈·s³/3, QSS1 ∫ḟs = ḟ·s²/2.
+        let trusted =
+            if ORDER > 1 { libm::cbrt(3.0 * quantum / f2.abs()) } else { (2.0 * quantum / f1.abs()).sqrt() };
+        if trusted < self.settings.trust { trusted } else { self.settings.trust }
+    }
+
+    /// ta: when a state next needs attention (algorithm 3.1, eq. 3.6).
+    #[inline]
+    fn schedule(&mut self, i: usize, t: f64) {
+        let band = t + self.records[i].band_delay(t);
+        let refresh = self.refresh[i];
+        self.agenda.set(i as u32, if refresh < band { refresh } else { band });
+    }
+
+    /// Has a watch looked at before time goes on.
+    #[inline]
+    pub(super) fn mark(&mut self, watch: WatchIndex) {
+        let record = &mut self.watches[watch.position()];
+        if record.armed > 0 && !record.dirty {
+            record.dirty = true;
+            self.dirty.push(watch);
+        }
+    }
+
+    /// A state whose time has come: the edge of its band, or only a rate that bends.
+    #[inline]
+    fn state_due(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Fault> {
+        if self.refresh[i] > t || self.records[i].band_delay(t) <= 0.0 {
+            return self.step(e, i, t, journal);
+        }
+        self.statistics.refreshes += 1;
+        for &entry in e.entries(&e.own[i]) {
+            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+        }
+        Ok(())
+    }
+
+    /// Evaluates entries twice: once for values, so that quantised trajectories of `fresh` states start
+    /// with their slopes, then in full.
+    fn evaluate_afresh(
+        &mut self,
+        e: &Equations,
+        t: f64,
+        fresh: &[StateIndex],
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
+        let mut entries = std::mem::take(&mut self.entries);
+        for &state in fresh {
+            entries.extend_from_slice(e.entries(&e.influence[state.position()]));
+            entries.extend_from_slice(e.entries(&e.own[state.position()]));
+        }
+        entries.sort_unstable();
+        entries.dedup();
+        if ORDER > 1 {
+            let mut slopes: Vec<(usize, f64)> = Vec::with_capacity(fresh.len());
+            for &entry in &entries {
+                let block = e.block(entry, &self.locations);
+                self.run_block(e, block, t, 1);
+                for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
+                    if fresh.contains(&row.state) {
+                        slopes.push((row.state.position(), e.result(row.result, &self.memory, 1)[0]));
+                    }
+                }
+            }
+            for (i, slope) in slopes {
+                self.records[i].q[1] = slope;
+            }
+        }
+        for &entry in &entries {
+            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+        }
+        for &state in fresh {
+            self.schedule(state.position(), t);
+        }
+        entries.clear();
+        self.entries = entries;
+        Ok(())
+    }
+
+    /// q of a state starts on x.
+    fn synchronise(&mut self, i: usize, t: f64) {
+        let record = &mut self.records[i];
+        let x = record.x_at(t);
+        record.q = [x, 0.0];
+        record.tq = t;
+        record.quantum = self.settings.quanta[i].at(x);
+        self.repeats[i] = 0;
+    }
+
+    fn set_state(&mut self, state: StateIndex, value: f64, t: f64) -> Result<(), Fault> {
+        if !value.is_finite() {
+            return Err(Fault::StateNotFinite { state, time: t, value });
+        }
+        let record = &mut self.records[state.position()];
+        record.x = [value, 0.0, 0.0];
+        record.tx = t;
+        Ok(())
+    }
+
+    fn set_input(&mut self, e: &Equations, input: usize, line: [f64; 2], t: f64) -> SourceIndex {
+        let source = SourceIndex(e.layout.states + input as u32);
+        self.records[source.position()] = Record::line(line[0], line[1], t);
+        source
+    }
+
+    /// Enters a location: arms its watches, disarms those left, and gives the states whose right-hand side is
+    /// another one.
+    fn enter(&mut self, e: &Equations, automaton: usize, location: LocationIndex, fresh: &mut Vec<StateIndex>) {
+        let code = &e.automata[automaton];
+        let (from, to) = (self.locations[automaton].position(), location.position());
+        for &watch in &code.armed[to] {
+            self.arm(watch);
+        }
+        for &watch in &code.armed[from] {
+            self.disarm(e, watch);
+        }
+        self.locations[automaton] = location;
+        let changed = code.row_of[from].iter().zip(&code.row_of[to]).map(|(a, b)| a != b);
+        fresh.extend(code.states.iter().zip(changed).filter_map(|(&s, changed)| changed.then_some(s)));
+    }
+}
+
+impl<const ORDER: usize> Engine for Qss<ORDER> {
+    fn start(&mut self, e: &Equations, start: &Start<'_>, journal: &mut Journal) -> Result<(), Fault> {
+        let t = start.time;
+        for (i, &value) in start.states.iter().enumerate() {
+            self.set_state(StateIndex::new(i), value, t)?;
+            self.synchronise(i, t);
+        }
+        for (input, &line) in start.inputs.iter().enumerate() {
+            self.set_input(e, input, line, t);
+        }
+        self.records[e.layout.time().position()] = Record::line(t, 1.0, t);
+        self.locations.copy_from_slice(start.locations);
+        for (code, location) in e.automata.iter().zip(start.locations) {
+            for &watch in &code.armed[location.position()] {
+                self.arm(watch);
+            }
+        }
+        self.guess_truths(e, t);
+        for range in &e.on_location {
+            self.entries.extend_from_slice(e.entries(range));
+        }
+        let all: Vec<StateIndex> = (0..start.states.len()).map(StateIndex::new).collect();
+        self.evaluate_afresh(e, t, &all, journal)?;
+        self.settle(e, t, journal)
+    }
+
+    fn advance(
+        &mut self,
+        e: &Equations,
+        until: f64,
+        budget: u64,
+        journal: &mut Journal,
+    ) -> Result<Stop, Fault> {
+        let states = e.layout.states;
+        let mut left = budget;
+        let mut crossed = false;
+        let mut now = f64::NEG_INFINITY;
+        while let Some((t, slot)) = self.agenda.first() {
+            if crossed && t > now {
+                return Ok(Stop::Crossed(now));
+            }
+            if t > until {
+                break;
+            }
+            if left == 0 && t > now {
+                return Ok(Stop::Budget(now));
+            }
+            left = left.saturating_sub(1);
+            now = t;
+            if slot < states {
+                self.state_due(e, slot as usize, t, journal)?;
+            } else {
+                let watch = WatchIndex(slot - states);
+                self.watch_due(e, watch, t, journal)?;
+            }
+            if !self.dirty.is_empty() {
+                self.predict_dirty(e, t)?;
+            }
+            crossed |= !self.changed.is_empty();
+        }
+        Ok(if crossed { Stop::Crossed(now) } else { Stop::Horizon })
+    }
+
+    fn change(
+        &mut self,
+        e: &Equations,
+        at: f64,
+        changes: &Changes,
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
+        let mut fresh: Vec<StateIndex> = Vec::new();
+        for &(state, value) in &changes.states {
+            self.set_state(state, value, at)?;
+            fresh.push(state);
+            self.touch(e, SourceIndex(state.0));
+        }
+        for &(input, line) in &changes.inputs {
+            let source = self.set_input(e, input.position(), line, at);
+            self.entries.extend_from_slice(e.entries(&e.influence[source.position()]));
+            self.touch(e, source);
+            if journal.wanted {
+                journal.push(sophy_field::Record::Input { time: at, input, value: line[0], slope: line[1] });
+            }
+        }
+        for &(automaton, location) in &changes.locations {
+            self.enter(e, automaton.position(), location, &mut fresh);
+            let range = &e.on_location[automaton.position()];
+            self.entries.extend_from_slice(e.entries(range));
+            if journal.wanted {
+                journal.push(sophy_field::Record::Location { time: at, automaton, location });
+            }
+        }
+        fresh.sort_unstable();
+        fresh.dedup();
+        for &state in &fresh {
+            self.synchronise(state.position(), at);
+        }
+        self.guess_truths(e, at);
+        self.evaluate_afresh(e, at, &fresh, journal)?;
+        self.settle(e, at, journal)
+    }
+
+    fn value(&self, source: SourceIndex, time: f64) -> f64 {
+        self.records[source.position()].x_at(time)
+    }
+
+    fn jet(&self, source: SourceIndex, time: f64) -> [f64; 3] {
+        self.records[source.position()].jet_at(time)
+    }
+
+    fn quantised(&self, state: StateIndex, time: f64) -> f64 {
+        self.records[state.position()].q_at(time)
+    }
+
+    fn sign(&self, watch: WatchIndex) -> Sign {
+        self.watches[watch.position()].sign
+    }
+
+    fn take_changed(&mut self, into: &mut Vec<WatchIndex>) {
+        into.append(&mut self.changed);
+    }
+
+    fn locations(&self) -> &[LocationIndex] {
+        &self.locations
+    }
+
+    fn jacobian(&self, e: &Equations, time: f64) -> Vec<(StateIndex, SourceIndex, f64)> {
+        let mut memory = self.memory.clone();
+        let mut entries = Vec::new();
+        for (i, rate) in e.rates.iter().enumerate() {
+            let formula = &rate.by_location[self.locations[rate.owner.position()].position()];
+            let sources = e.sources(&formula.sources);
+            for &source in sources {
+                for &other in sources {
+                    let at = e.layout.series_of(other);
+                    memory[at] = self.value(other, time);
+                    memory[at + 1] = if other == source { 1.0 } else { 0.0 };
+                }
+                let [_, slope, _] = e.formula(formula, &self.locations, &mut memory, 2);
+                entries.push((StateIndex::new(i), source, slope));
+            }
+        }
+        entries
+    }
+
+    fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    fn snapshot(&self) -> Box<dyn Engine> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,27 @@
+//! Quantised-state methods.
+//!
+//! A state has two trajectories: x(t), a parabola (QSS1: a line) that integrates its rate, and q(t), a line
+//! (QSS1: a constant) that the rates of others read. When they differ by the quantum ΔQ, q is set to x:
+//!
+//! | thesis | here |
+//! | --- | --- |
+//! | δ_int of algorithm 3.1, eq. (3.7) | [`Qss::step`](engine): q ← x, q̇ ← ẋ |
+//! | λ of algorithm 3.1, D of §3.2.2 | [`Qss::step`](engine): evaluate what q influences |
+//! | δ_ext of algorithm 3.1, eq. (3.5) | [`Qss::set_rate`](engine): x ← x(t); ẋ, ẍ ← new |
+//! | ta of algorithm 3.1, eq. (3.6) | [`Record::band_delay`](record) |
+//! | algorithm 3.2 | the blocks of `sophy_field::Equations`; ẍ is the exact directional derivative instead of the difference quotient |
+//! | timeToHit, eq. (8.3) | [`watches`] |
+//!
+//! Three weaknesses of the method as printed are mended. A rate that *bends* (is not affine in q, or for QSS1
+//! reads time or a ramp) is evaluated again before the bend has moved x by a quantum, also when no quantised
+//! variable changes; the thesis would follow x′ = sin t by one parabola for ever. At a start, a reset and a
+//! change of location q starts on x *with its slope*, instead of one quantum later. And the printed order of
+//! δ_int before λ is λ first (the output is what was predicted).
+
+mod engine;
+mod record;
+mod settings;
+mod watches;
+
+pub use engine::Qss;
+pub use settings::{Quantum, Settings};

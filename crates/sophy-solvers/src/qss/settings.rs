@@ -1,0 +1,49 @@
+/// The quantum of a state: ΔQ = max(absolute, relative·|x|), taken anew at each change of q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantum {
+    /// In the state's unit; positive. Smaller is more accurate; QSS2 needs 1/√ΔQ, QSS1 1/ΔQ steps.
+    pub absolute: f64,
+    /// Fraction of |x|; 0 for a fixed quantum.
+    pub relative: f64,
+}
+
+impl Quantum {
+    /// A fixed quantum.
+    pub fn absolute(absolute: f64) -> Self {
+        Quantum { absolute, relative: 0.0 }
+    }
+
+    /// From a relative tolerance: ΔQ = tolerance·max(|x|, 10⁻³ units).
+    pub fn from_tolerance(tolerance: f64) -> Self {
+        Quantum { absolute: tolerance * 1e-3, relative: tolerance }
+    }
+
+    /// ΔQ at x.
+    #[inline]
+    pub fn at(self, x: f64) -> f64 {
+        let relative = self.relative * x.abs();
+        if relative > self.absolute { relative } else { self.absolute }
+    }
+}
+
+/// How a quantised engine works.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// One quantum per state.
+    pub quanta: Vec<Quantum>,
+    /// The longest time, s, for which a rate that bends is trusted without being evaluated again; a guard
+    /// against a bend that vanishes at one instant. A hundredth of the run is usual.
+    pub trust: f64,
+    /// The longest time, s, over which a non-linear guard is searched ahead at once. Any value finds the same
+    /// crossings; a sixteenth of the run is usual.
+    pub window: f64,
+    /// The most boxes that one search may bisect before it says that it cannot decide.
+    pub search_budget: u32,
+}
+
+impl Settings {
+    /// Usual settings for a run of `span` s.
+    pub fn for_span(quanta: Vec<Quantum>, span: f64) -> Self {
+        Settings { quanta, trust: span / 100.0, window: span / 16.0, search_budget: 100_000 }
+    }
+}

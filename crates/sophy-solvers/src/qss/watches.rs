@@ -1,0 +1,375 @@
+//! Watches: the first sign change of a guard's or switch's quantity, located on x.
+
+use super::engine::{MOST_REPEATS, Qss};
+use sophy_field::{Equations, Fault, Formula, Journal, SourceIndex, WatchIndex, sign_bit};
+use sophy_segment::{Interval, Search, Sign, Start, first_crossing, parabola_crossing};
+
+/// What is known of a watch.
+///
+/// **Truth at zero.** The sign is that just right of the present instant. `bias` makes "the surface just
+/// located *is* zero" last: it is the residue of rounding that the watched difference had when it was located,
+/// and is taken off from then on. A difference within 4 ulp of its larger side, on entry or after a reset, is
+/// treated likewise.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WatchRecord {
+    /// Decided sign.
+    pub(super) sign: Sign,
+    /// How many active locations want it.
+    pub(super) armed: u32,
+    /// Waits to be looked at.
+    pub(super) dirty: bool,
+    /// Must be decided anew: just armed, or a state it reads was reset.
+    pub(super) fresh: Fresh,
+    /// What the agenda's time is: a root ahead, or a change at the joint of two segments.
+    due: Due,
+    /// Taken off the difference.
+    bias: f64,
+    /// Last sign change, s, and how often at that instant.
+    last: f64,
+    repeats: u32,
+}
+
+/// Why a watch must be decided anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fresh {
+    /// It need not.
+    No,
+    /// A source it reads was set: what was on the surface and did not move stays on it.
+    Reset,
+    /// It was not armed before.
+    Armed,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Due {
+    /// A root located on the present segments.
+    Root,
+    /// The present segments begin on the other side.
+    Joint,
+    /// The end of what was searched so far.
+    Search,
+}
+
+impl Default for WatchRecord {
+    fn default() -> Self {
+        WatchRecord {
+            sign: Sign::Zero,
+            armed: 0,
+            dirty: false,
+            fresh: Fresh::No,
+            due: Due::Root,
+            bias: 0.0,
+            last: f64::NEG_INFINITY,
+            repeats: 0,
+        }
+    }
+}
+
+impl<const ORDER: usize> Qss<ORDER> {
+    pub(super) fn arm(&mut self, watch: WatchIndex) {
+        let record = &mut self.watches[watch.position()];
+        record.armed += 1;
+        if record.armed == 1 {
+            record.fresh = Fresh::Armed;
+            record.bias = 0.0;
+            self.mark(watch);
+        }
+    }
+
+    pub(super) fn disarm(&mut self, e: &Equations, watch: WatchIndex) {
+        let record = &mut self.watches[watch.position()];
+        record.armed -= 1;
+        if record.armed == 0 {
+            self.agenda.set(e.layout.states + watch.0, f64::INFINITY);
+        }
+    }
+
+    /// A source was set from outside: the watches that read it are decided anew.
+    pub(super) fn touch(&mut self, e: &Equations, source: SourceIndex) {
+        for &watch in &e.watches_of_source[source.position()] {
+            let record = &mut self.watches[watch.position()];
+            if record.fresh == Fresh::No {
+                record.fresh = Fresh::Reset;
+            }
+            self.mark(watch);
+        }
+    }
+
+    /// Predicts every marked watch anew; nothing was set from outside.
+    pub(super) fn predict_dirty(&mut self, e: &Equations, t: f64) -> Result<(), Fault> {
+        let mut position = 0;
+        while let Some(&watch) = self.dirty.get(position) {
+            position += 1;
+            self.watches[watch.position()].dirty = false;
+            if self.watches[watch.position()].armed > 0 {
+                self.predict(e, watch, t)?;
+            }
+        }
+        self.dirty.clear();
+        Ok(())
+    }
+
+    /// A watch whose time has come.
+    pub(super) fn watch_due(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
+        let due = self.watches[watch.position()].due;
+        if due == Due::Search {
+            return self.predict(e, watch, t);
+        }
+        let mut c = self.difference(e, watch, t)?;
+        let record = &mut self.watches[watch.position()];
+        let sign = match (due, record.sign) {
+            (Due::Root, Sign::Zero) | (Due::Joint, _) | (Due::Search, _) => Sign::after(&c),
+            (Due::Root, sign) => {
+                record.bias += c[0];
+                c[0] = 0.0;
+                sign.opposite()
+            }
+        };
+        self.flip(e, watch, sign, due == Due::Root, t, journal)?;
+        self.predict(e, watch, t)
+    }
+
+    /// Decides every marked watch at an instant of change, in the order of watches, until nothing changes any
+    /// more: a switch that changes may change rates, and these other signs.
+    pub(super) fn settle(&mut self, e: &Equations, t: f64, journal: &mut Journal) -> Result<(), Fault> {
+        let mut rounds = 0;
+        while !self.dirty.is_empty() {
+            self.dirty.sort_unstable();
+            let watch = self.dirty.remove(0);
+            let record = &mut self.watches[watch.position()];
+            record.dirty = false;
+            let fresh = std::mem::replace(&mut record.fresh, Fresh::No);
+            if record.armed == 0 {
+                continue;
+            }
+            let sign = match fresh {
+                Fresh::No => Sign::after(&self.difference(e, watch, t)?),
+                fresh => self.decide(e, watch, t, fresh)?,
+            };
+            if fresh == Fresh::Armed {
+                // A guard that has not been read before is always looked at.
+                self.watches[watch.position()].sign = sign;
+                self.publish(e, watch, sign);
+                self.stair(e, watch, sign, false, t, journal)?;
+            } else if sign != self.watches[watch.position()].sign {
+                rounds += 1;
+                if rounds > 100 * (1 + self.watches.len()) {
+                    return Err(Fault::Chattering { watch, time: t });
+                }
+                self.flip(e, watch, sign, false, t, journal)?;
+            }
+            self.predict(e, watch, t)?;
+        }
+        Ok(())
+    }
+
+    /// Truths and stairs by value alone, before rates are known; [`Qss::settle`] corrects them.
+    pub(super) fn guess_truths(&mut self, e: &Equations, t: f64) {
+        for index in 0..e.watches.len() {
+            let watch = WatchIndex::new(index);
+            let record = self.watches[index];
+            if record.armed == 0 || record.fresh == Fresh::No {
+                continue;
+            }
+            if let Some((stair, _)) = e.watches[index].stair {
+                let argument = self.value_of(e, &e.watches[index].left, t, 1)[0];
+                self.set_scalar(e.layout.stairs + stair, argument.floor());
+            }
+            let value = self.value_of(e, &e.watches[index].formula, t, 1)[0];
+            self.publish(e, watch, Sign::of(value - record.bias));
+        }
+    }
+
+    /// The sign of a watch from scratch, and its bias.
+    fn decide(&mut self, e: &Equations, watch: WatchIndex, t: f64, fresh: Fresh) -> Result<Sign, Fault> {
+        let code = &e.watches[watch.position()];
+        let left = self.value_of(e, &code.left, t, 1)[0];
+        let right = self.value_of(e, &code.right, t, 1)[0];
+        let mut c = self.raw_difference(e, watch, t)?;
+        let record = &mut self.watches[watch.position()];
+        let stays = fresh == Fresh::Reset && record.bias != 0.0 && c[0] == record.bias;
+        let larger = if left.abs() > right.abs() { left.abs() } else { right.abs() };
+        if stays || c[0].abs() <= 4.0 * (larger.next_up() - larger) {
+            record.bias = c[0];
+            c[0] = 0.0;
+        } else {
+            record.bias = 0.0;
+        }
+        Ok(Sign::after(&c))
+    }
+
+    /// A watch takes another sign: its truths change, and what reads them is evaluated.
+    fn flip(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        sign: Sign,
+        located: bool,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
+        let code = &e.watches[watch.position()];
+        let record = &mut self.watches[watch.position()];
+        record.repeats = if record.last == t { record.repeats + 1 } else { 0 };
+        record.last = t;
+        record.sign = sign;
+        if record.repeats > MOST_REPEATS {
+            return Err(Fault::Chattering { watch, time: t });
+        }
+        self.statistics.crossings += 1;
+        if code.guard {
+            self.changed.push(watch);
+        }
+        self.publish(e, watch, sign);
+        self.stair(e, watch, sign, located, t, journal)?;
+        for &entry in e.entries(&e.on_watch[watch.position()]) {
+            self.evaluate_entry(e, entry, t, journal)?;
+        }
+        for &dependent in &code.dependents {
+            self.mark(dependent);
+        }
+        Ok(())
+    }
+
+    /// Writes the truths that a sign means.
+    fn publish(&mut self, e: &Equations, watch: WatchIndex, sign: Sign) {
+        for &(truth, signs) in &e.watches[watch.position()].truths {
+            let holds = if signs & sign_bit(sign) != 0 { 1.0 } else { 0.0 };
+            self.set_scalar(e.layout.truths + truth, holds);
+        }
+    }
+
+    /// A stair is stepped when its lower watch is negative or its upper one is not.
+    fn stair(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        sign: Sign,
+        located: bool,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
+        let Some((stair, step)) = e.watches[watch.position()].stair else { return Ok(()) };
+        let inside = if step < 0.0 { sign != Sign::Negative } else { sign == Sign::Negative };
+        if inside {
+            return Ok(());
+        }
+        let at = e.layout.stairs + stair;
+        let argument = self.value_of(e, &e.watches[watch.position()].left, t, 1)[0];
+        let next = self.memory[at as usize] + step;
+        // Located on the step, or within one of it: the next one. Thrown further by a jump: where it is.
+        let near = located || (argument - next).abs() <= 1.0;
+        self.set_scalar(at, if near { next } else { argument.floor() });
+        for (index, code) in e.watches.iter().enumerate() {
+            if code.stair.is_some_and(|(other, _)| other == stair) && self.watches[index].armed > 0 {
+                let other = WatchIndex::new(index);
+                let raw = self.raw_difference(e, other, t)?[0];
+                let takes_over = located && other != watch;
+                self.watches[index].bias = if takes_over { raw } else { 0.0 };
+                self.watches[index].sign = Sign::after(&self.difference(e, other, t)?);
+                self.mark(other);
+            }
+        }
+        for &entry in e.entries(&e.on_watch[watch.position()]) {
+            self.evaluate_entry(e, entry, t, journal)?;
+        }
+        Ok(())
+    }
+
+    fn set_scalar(&mut self, at: u32, value: f64) {
+        self.memory[at as usize] = value;
+        self.enclosed[at as usize] = Interval::point(value);
+    }
+
+    /// When the decided sign is first lost on the present segments (thesis §8.3.2, timeToHit).
+    fn predict(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<(), Fault> {
+        self.statistics.predictions += 1;
+        let c = self.difference(e, watch, t)?;
+        let sign = self.watches[watch.position()].sign;
+        let (time, due) = if e.watches[watch.position()].affine {
+            match parabola_crossing(c, sign) {
+                Some(delay) => (t + delay, if delay > 0.0 { Due::Root } else { Due::Joint }),
+                None => (f64::INFINITY, Due::Root),
+            }
+        } else if c != [0.0; 3] && Sign::after(&c) != sign {
+            (t, Due::Joint)
+        } else {
+            self.search(e, watch, t, c[0] == 0.0)?
+        };
+        self.watches[watch.position()].due = due;
+        self.agenda.set(e.layout.states + watch.0, time);
+        Ok(())
+    }
+
+    /// The first crossing of a watch that is not affine, by enclosures, as far ahead as is worth while.
+    fn search(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+        on_surface: bool,
+    ) -> Result<(f64, Due), Fault> {
+        let formula = &e.watches[watch.position()].formula;
+        let record = self.watches[watch.position()];
+        let sources = e.sources(&formula.sources);
+        // Segments change with the next step of a source: no need to look much further.
+        let next = sources
+            .iter()
+            .filter(|source| source.0 < e.layout.states)
+            .map(|source| self.agenda.time(source.0))
+            .fold(f64::INFINITY, f64::min);
+        let far = t + self.settings.window;
+        let end = if next > t && next < far { next } else { far };
+        let bias = Interval::point(record.bias);
+        let (records, enclosed, locations) = (&self.records, &mut self.enclosed, &self.locations);
+        let mut enclose = |times: Interval| {
+            for &source in sources {
+                let at = e.layout.series_of(source);
+                let jet = records[source.position()].enclose(times);
+                enclosed[at..at + ORDER + 1].copy_from_slice(&jet[..=ORDER]);
+            }
+            let mut jet = e.formula_enclosed(formula, locations, enclosed);
+            jet[0] = jet[0] - bias;
+            jet
+        };
+        let start = Start { sign: record.sign, on_surface };
+        match first_crossing(&mut enclose, t, end, start, self.settings.search_budget) {
+            Search::Crossing(time) => Ok((time, if time > t { Due::Root } else { Due::Joint })),
+            Search::None => Ok((end, Due::Search)),
+            Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
+        }
+    }
+
+    /// Taylor coefficients of the watched difference at `t`, the bias taken off.
+    fn difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
+        let mut c = self.raw_difference(e, watch, t)?;
+        c[0] -= self.watches[watch.position()].bias;
+        Ok(c)
+    }
+
+    fn raw_difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
+        let c = self.value_of(e, &e.watches[watch.position()].formula, t, ORDER + 1);
+        if c.iter().all(|x| x.is_finite()) {
+            return Ok(c);
+        }
+        let value = c.into_iter().find(|x| !x.is_finite()).unwrap_or(f64::NAN);
+        Err(Fault::WatchNotFinite { watch, time: t, value })
+    }
+
+    /// A formula on the series side at `t`.
+    #[inline]
+    fn value_of(&mut self, e: &Equations, formula: &Formula, t: f64, orders: usize) -> [f64; 3] {
+        for &source in e.sources(&formula.sources) {
+            let at = e.layout.series_of(source);
+            let jet = self.records[source.position()].jet_at(t);
+            self.memory[at..at + ORDER + 1].copy_from_slice(&jet[..=ORDER]);
+        }
+        e.formula(formula, &self.locations, &mut self.memory, orders)
+    }
+}

@@ -1,0 +1,53 @@
+use sophy_diagnostics::Code;
+use std::ops::Range;
+
+/// A mistake of grammar: what is wrong, where in the text, and the way out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SyntaxError {
+    /// Kind of message.
+    pub code: Code,
+    /// One sentence without a full stop.
+    pub message: String,
+    /// Where, in bytes of the text; empty where something is missing.
+    pub range: Range<usize>,
+    /// Ways out.
+    pub helps: Vec<String>,
+    /// Further places and what is to be said of them.
+    pub related: Vec<(Range<usize>, String)>,
+}
+
+impl SyntaxError {
+    pub(crate) fn new(code: Code, range: Range<usize>, message: impl Into<String>) -> Self {
+        SyntaxError { code, message: message.into(), range, helps: Vec::new(), related: Vec::new() }
+    }
+
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
+        self.helps.push(help.into());
+        self
+    }
+
+    pub(crate) fn related(mut self, range: Range<usize>, message: impl Into<String>) -> Self {
+        self.related.push((range, message.into()));
+        self
+    }
+}
+
+/// The codes of this crate.
+pub(crate) mod codes {
+    use sophy_diagnostics::Code;
+
+    pub(crate) const CHARACTER: Code = Code("HS0001");
+    pub(crate) const NUMBER: Code = Code("HS0002");
+    pub(crate) const QUOTE: Code = Code("HS0003");
+    pub(crate) const UNMATCHED: Code = Code("HS0004");
+    pub(crate) const UNCLOSED: Code = Code("HS0005");
+    pub(crate) const MISSING_EXPRESSION: Code = Code("HS0006");
+    pub(crate) const MISSING_OPERATOR: Code = Code("HS0007");
+    pub(crate) const CHAINED_COMPARISON: Code = Code("HS0008");
+    pub(crate) const INCOMPLETE_IF: Code = Code("HS0009");
+    pub(crate) const PARENTHESES_NEEDED: Code = Code("HS0010");
+    pub(crate) const TOO_DEEP: Code = Code("HS0011");
+    pub(crate) const UNEXPECTED: Code = Code("HS0012");
+    pub(crate) const SPELLING: Code = Code("HS0013");
+    pub(crate) const STRING: Code = Code("HS0014");
+}

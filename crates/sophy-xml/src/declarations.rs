@@ -1,0 +1,180 @@
+use crate::codes::EMPTY_NAME;
+use crate::document::{Element, Text};
+use crate::hints;
+use crate::parser::is_xml_character;
+use crate::schema::ROOT;
+use crate::syntax_errors::syntax_errors;
+use sophy_analysis::{
+    ConstantDeclaration, Declarations, EquationDeclaration, ExpressionText, LocationDeclaration, Spanned,
+    TransitionDeclaration, VariableDeclaration,
+};
+use sophy_diagnostics::{Diagnostic, Diagnostics};
+use sophy_syntax::parse_expression;
+
+/// What a tree declares whose elements the content check has named; `None` if it is no system.
+pub(crate) fn declare(root: &Element, diagnostics: &mut Diagnostics) -> Option<Declarations> {
+    if root.meant != Some(ROOT) {
+        return None;
+    }
+    let mut reader = Reader { diagnostics };
+    let mut declarations = Declarations {
+        name: reader.name_of(root),
+        documentation: documentation_of(root),
+        constants: members(root, "constants", "constant").map(|e| reader.constant(e)).collect(),
+        functions: Vec::new(),
+        states: members(root, "states", "state").map(|e| reader.variable(e)).collect(),
+        inputs: members(root, "inputs", "input").map(|e| reader.variable(e)).collect(),
+        outputs: members(root, "outputs", "output").map(|e| reader.variable(e)).collect(),
+        initial: Vec::new(),
+        initial_location: None,
+        units: Vec::new(),
+        hints: Vec::new(),
+        locations: members(root, "locations", "location").map(|e| reader.location(e)).collect(),
+    };
+    hints::declare(members(root, "hints", "hint"), &mut declarations, &mut reader);
+    Some(declarations)
+}
+
+/// The `member`s of every `group` (there should be one), and those that stand outside it by mistake.
+fn members<'a>(parent: &'a Element, group: &'a str, member: &'a str) -> impl Iterator<Item = &'a Element> {
+    parent.all(group).flat_map(move |group| group.all(member)).chain(parent.all(member))
+}
+
+/// Makes declarations of elements and complains about empty names and malformed expressions.
+pub(crate) struct Reader<'d> {
+    pub(crate) diagnostics: &'d mut Diagnostics,
+}
+
+impl Reader<'_> {
+    fn constant(&mut self, element: &Element) -> ConstantDeclaration {
+        ConstantDeclaration {
+            name: self.attribute_name(element, "symbol"),
+            value: self.expression(&element.text()),
+        }
+    }
+
+    fn variable(&mut self, element: &Element) -> VariableDeclaration {
+        let documentation = element.attribute("documentation").map(|text| text.decoded.trim().to_owned());
+        VariableDeclaration {
+            name: self.name(&element.text(), element),
+            documentation: documentation.unwrap_or_default(),
+        }
+    }
+
+    fn location(&mut self, element: &Element) -> LocationDeclaration {
+        LocationDeclaration {
+            name: self.name_of(element),
+            documentation: documentation_of(element),
+            dynamics: element.all("diffequation").map(|e| self.equation(e, "state")).collect(),
+            outputs: element.all("outputmap").map(|e| self.equation(e, "output")).collect(),
+            transitions: members(element, "transitions", "transition").map(|e| self.transition(e)).collect(),
+        }
+    }
+
+    fn transition(&mut self, element: &Element) -> TransitionDeclaration {
+        let destination = element.all("reset").find_map(|reset| reset.first("destination"));
+        TransitionDeclaration {
+            name: self.name_of(element),
+            documentation: documentation_of(element),
+            guard: element.first("domain").map(|domain| self.expression(&domain.text())),
+            destination: match destination {
+                Some(destination) => self.name(&destination.text(), destination),
+                None => missing_name(element),
+            },
+            resets: members(element, "reset", "statereset").map(|e| self.equation(e, "state")).collect(),
+            input_events: element.all("inputevent").map(|e| self.name(&e.text(), e)).collect(),
+            output_events: element.all("outputevent").map(|e| self.name(&e.text(), e)).collect(),
+        }
+    }
+
+    fn equation(&mut self, element: &Element, attribute: &str) -> EquationDeclaration {
+        EquationDeclaration {
+            target: self.attribute_name(element, attribute),
+            right: self.expression(&element.text()),
+        }
+    }
+
+    /// The expression that a text is, without the blanks around it. Its syntax errors are reported, unless they
+    /// may be due to a mistake of XML in it.
+    pub(crate) fn expression(&mut self, text: &Text) -> ExpressionText {
+        let (trimmed, map) = text.trimmed();
+        let parse = parse_expression(trimmed);
+        if !text.damaged && trimmed.chars().all(is_xml_character) {
+            self.diagnostics.extend(syntax_errors(&parse, &map));
+        }
+        ExpressionText { text: trimmed.to_owned(), parse, map }
+    }
+
+    /// The text of the child `name`; empty if there is none, which the content check has said.
+    fn name_of(&mut self, element: &Element) -> Spanned<String> {
+        match (element.first("name"), element.attribute("name")) {
+            (Some(name), _) => self.name(&name.text(), name),
+            // Where the name should not be, but is.
+            (None, Some(name)) => self.trimmed_name(name, element, "name"),
+            (None, None) => missing_name(element),
+        }
+    }
+
+    fn attribute_name(&mut self, element: &Element, attribute: &str) -> Spanned<String> {
+        match element.required_attribute(attribute) {
+            Some(value) => self.trimmed_name(value, element, attribute),
+            None => missing_name(element),
+        }
+    }
+
+    /// The name that the text of `element` is, without the blanks around it.
+    pub(crate) fn name(&mut self, text: &Text, element: &Element) -> Spanned<String> {
+        self.trimmed_name(text, element, &element.name)
+    }
+
+    fn trimmed_name(&mut self, text: &Text, element: &Element, what: &str) -> Spanned<String> {
+        let (name, map) = text.trimmed();
+        if name.is_empty() && !text.damaged {
+            self.diagnostics.push(
+                Diagnostic::error(EMPTY_NAME, element.tag, format!("the `{what}` is empty"))
+                    .help("it must be a name; delete the element if it is not needed"),
+            );
+        }
+        Spanned::new(name.to_owned(), map.whole())
+    }
+}
+
+/// Stands for a name whose absence the content check has reported.
+fn missing_name(element: &Element) -> Spanned<String> {
+    Spanned::new(String::new(), element.tag)
+}
+
+fn documentation_of(element: &Element) -> String {
+    element.first("documentation").map_or_else(String::new, |text| outdented(&text.text().decoded))
+}
+
+/// The lines of a text without the blanks around it and without the indentation that its lines share.
+///
+/// A first line that follows the tag directly shows no indentation and does not count.
+fn outdented(text: &str) -> String {
+    let blanks = |line: &str| line.len() - line.trim_start_matches([' ', '\t']).len();
+    let below_tag = text.trim_start_matches([' ', '\t']).starts_with('\n');
+    let counted = text.split('\n').skip(usize::from(!below_tag)).filter(|line| !line.trim().is_empty());
+    let shared = counted.map(blanks).min().unwrap_or(0);
+    let outdent = |line: &str| line[blanks(line).min(shared)..].to_owned();
+    let each =
+        text.split('\n').map(|line| if line.trim().is_empty() { String::new() } else { outdent(line) });
+    let lines: Vec<String> = each.collect();
+    lines.join("\n").trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::outdented;
+
+    #[test]
+    fn documentation_loses_the_indentation_of_its_element() {
+        assert_eq!(
+            outdented("\n    Two lines,\n      the second deeper\n\n    and one.\n  "),
+            "Two lines,\n  the second deeper\n\nand one."
+        );
+        assert_eq!(outdented("On the line of the tag\n    and below"), "On the line of the tag\nand below");
+        assert_eq!(outdented("  short  "), "short");
+        assert_eq!(outdented(" \n "), "");
+    }
+}

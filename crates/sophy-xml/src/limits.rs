@@ -1,0 +1,16 @@
+//! What a file may cost. A model of ten thousand locations stays far below all of these.
+
+/// Largest file, in bytes.
+pub(crate) const MAX_BYTES: usize = 16 << 20;
+
+/// Deepest nesting of elements; the definition needs seven.
+pub(crate) const MAX_DEPTH: usize = 64;
+
+/// Most elements, attributes and pieces of text together.
+pub(crate) const MAX_NODES: usize = 1 << 20;
+
+/// Most bytes that the references to declared entities may expand to, all together.
+pub(crate) const MAX_EXPANSION: usize = 1 << 20;
+
+/// Deepest nesting of references to declared entities.
+pub(crate) const MAX_ENTITY_DEPTH: usize = 10;
