@@ -2,7 +2,9 @@ use crate::assemble::assemble;
 use crate::checks;
 use crate::declarations::{Declarations, ExpressionText};
 use crate::findings::Findings;
-use crate::lower::{Context, LoweredLocation, Strays, lower_definitions, lower_initial_values, lower_location};
+use crate::lower::{
+    Context, LoweredLocation, Strays, lower_definitions, lower_initial_values, lower_location,
+};
 use crate::names::Names;
 use sophy_diagnostics::Diagnostics;
 use sophy_ir::{Graph, Model};
@@ -56,7 +58,7 @@ pub fn analyse(declarations: &Declarations) -> (Option<Model>, Diagnostics) {
     checks::hs0118_unused::find(declarations, &names, &suggested, &mut diagnostics);
     checks::hs0119_no_location::find(declarations, &mut diagnostics);
     checks::hs0401_constant_guard::find(declarations, &locations, &graph, &mut diagnostics);
-    checks::hs0402_taken_on_entry::find(declarations, &locations, &names, &mut graph, &mut diagnostics);
+    checks::hs0402_taken_on_entry::find(declarations, &locations, &mut graph, &mut diagnostics);
 
     let well_formed = expressions(declarations).all(|text| text.parse.errors().is_empty());
     let model = if diagnostics.has_errors() || !well_formed {

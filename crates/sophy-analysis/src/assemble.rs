@@ -100,9 +100,8 @@ fn location(
 ) -> Option<Location> {
     let written = &declarations.locations[position];
     let equations = |list: Vec<LoweredEquation>| -> Option<Vec<Equation>> {
-        let equation = |e: LoweredEquation| {
-            Some(Equation { variable: e.variable, right: e.right?, span: Some(e.span) })
-        };
+        let equation =
+            |e: LoweredEquation| Some(Equation { variable: e.variable, right: e.right?, span: Some(e.span) });
         list.into_iter().map(equation).collect()
     };
     let mut transitions = Vec::new();

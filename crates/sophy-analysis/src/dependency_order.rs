@@ -75,7 +75,8 @@ mod tests {
 
     #[test]
     fn a_long_chain_costs_no_stack() {
-        let chain: Vec<Vec<usize>> = (0..200_000).map(|i| if i < 199_999 { vec![i + 1] } else { vec![] }).collect();
+        let chain: Vec<Vec<usize>> =
+            (0..200_000).map(|i| if i < 199_999 { vec![i + 1] } else { vec![] }).collect();
         assert_eq!(dependency_order(&chain).order.len(), 200_000);
     }
 }

@@ -15,6 +15,8 @@ mod names;
 mod predefined;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;
 
 pub use analyse::analyse;
 pub use checks::CODES;

@@ -67,7 +67,8 @@ impl<'a> Names<'a> {
         let inputs = d.inputs.iter().map(|v| &v.name).enumerate().map(|n| (Kind::Input, n));
         let outputs = d.outputs.iter().map(|v| &v.name).enumerate().map(|n| (Kind::Output, n));
         let functions = d.functions.iter().map(|f| &f.name).enumerate().map(|n| (Kind::Function, n));
-        for (kind, (position, name)) in constants.chain(states).chain(inputs).chain(outputs).chain(functions) {
+        for (kind, (position, name)) in constants.chain(states).chain(inputs).chain(outputs).chain(functions)
+        {
             let symbol = Symbol { kind, position, span: name.span };
             names.enter(name.value.as_str(), symbol, &mut repeated);
         }
@@ -122,11 +123,13 @@ impl<'a> Names<'a> {
     pub(crate) fn values(&self) -> Vec<&'a str> {
         let order = [Kind::State, Kind::Input, Kind::Output, Kind::Constant];
         let declared = order.into_iter().flat_map(|kind| self.of_kind(kind));
-        declared.chain(QUANTITIES).chain(["true", "false"]).collect()
+        declared.chain(QUANTITIES).collect()
     }
 
     /// Names that can be called.
     pub(crate) fn functions(&self) -> Vec<&'a str> {
-        self.of_kind(Kind::Function).chain(Predefined::names()).collect()
+        let mut functions: Vec<&'a str> = self.of_kind(Kind::Function).collect();
+        Predefined::names().for_each(|name| functions.push(name));
+        functions
     }
 }

@@ -56,7 +56,27 @@ const FUNCTIONS: &[(&str, Predefined)] = &[
     ("hypot", Predefined::Hypotenuse),
 ];
 
+/// What other languages call them, JEP's `angle` among them.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("angle", "atan2"),
+    ("arccos", "acos"),
+    ("arcsin", "asin"),
+    ("arctan", "atan"),
+    ("ceiling", "ceil"),
+    ("clamp", "sat"),
+    ("fabs", "abs"),
+    ("fmod", "rem"),
+    ("power", "pow"),
+    ("sgn", "sign"),
+    ("signum", "sign"),
+];
+
 impl Predefined {
+    /// What a function of another language is called here.
+    pub(crate) fn called_elsewhere(name: &str) -> Option<&'static str> {
+        ELSEWHERE.iter().find(|(other, _)| *other == name).map(|&(_, here)| here)
+    }
+
     pub(crate) fn named(name: &str) -> Option<Self> {
         FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
     }

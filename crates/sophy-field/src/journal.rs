@@ -32,6 +32,13 @@ pub enum Record {
         /// Unit/s.
         slope: f64,
     },
+    /// At `time` (s) a quantised state took its value; x goes on.
+    Step {
+        /// The instant, s.
+        time: f64,
+        /// The state.
+        state: StateIndex,
+    },
     /// Micro-step `step` at `time` begins; what was written before holds up to it.
     Jump {
         /// The instant, s.
@@ -57,6 +64,7 @@ impl Record {
         match *self {
             Record::Segment { time, .. }
             | Record::Input { time, .. }
+            | Record::Step { time, .. }
             | Record::Jump { time, .. }
             | Record::Location { time, .. } => time,
         }

@@ -46,7 +46,7 @@
 
   const marks = u => {
     const { min, max } = u.scales.x;
-    const first = after(data.marks, min) , last = after(data.marks, max);
+    const first = after(data.marks, min), last = after(data.marks, max);
     if (last - first > MOST_LINES) return;
     u.ctx.save();
     u.ctx.strokeStyle = "rgba(0,0,0,0.28)";
@@ -87,6 +87,17 @@
     zooming = false;
   };
 
+  // As many digits as tell neighbouring ticks apart.
+  const tickLabels = (u, ticks, axis, space, step) => {
+    const order = x => Math.floor(Math.log10(Math.abs(x)) + 1e-9);
+    const largest = Math.max(...ticks.map(Math.abs)), digits = order(largest) - order(step);
+    const plain = largest === 0 || (largest < 1e7 && largest >= 1e-2);
+    const label = v => plain ? v.toFixed(Math.max(0, -order(step))) : v === 0 ? "0" : v.toExponential(Math.max(0, digits - order(largest) + order(v)));
+    // Late digits alone when all do not fit; the values under the curves are whole.
+    const short = text => text.length > 8 ? "\u2026" + text.slice(-6) : text;
+    return ticks.map(v => short(label(v).replace("e+", "e").replace(/-/g, "\u2212")));
+  };
+
   const width = () => Math.max(320, host.clientWidth);
   const number = value => value === null || value === undefined ? "–" : String(Number(value.toPrecision(7)));
   const first = data.time[0], final = data.time[data.time.length - 1];
@@ -95,12 +106,12 @@
     width: width(),
     height,
     padding: [8, RIGHT, 0, 0],
-    cursor: { sync: { key: "run" }, drag: { x: true, y: false } },
+    cursor: { y: false, sync: { key: "run" }, drag: { x: true, y: false } },
   });
   const xScale = { time: false, range: (u, min, max) => min === null || max <= min ? whole : [min, max] };
   const xAxis = last => ({
     stroke: ink, grid, ticks: { stroke: ink, width: 0.8, size: 4 }, font: "12px Roboto, Helvetica, Arial, sans-serif",
-    values: last ? undefined : () => [],
+    values: last ? tickLabels : () => [],
     label: last ? "time (s)" : undefined, labelSize: 18, labelFont: "12px Roboto, Helvetica, Arial, sans-serif",
     size: last ? 28 : 6, gap: 3,
   });
@@ -110,17 +121,17 @@
   data.panels.forEach((panel, index) => {
     const last = index + 1 === items;
     const yRange = (u, min, max) => {
-      if (min === null) return [-1, 1];
+      if (min === null) return [-1.2, 1.2];
       const span = max - min, size = Math.max(Math.abs(min), Math.abs(max));
       if (span > 1e-11 * size) return [min - 0.05 * span, max + 0.05 * span];
-      return size > 0 ? [min - 0.1 * size, max + 0.1 * size] : [-1, 1];
+      return size > 0 ? [min - 0.12 * size, max + 0.12 * size] : [-1.2, 1.2];
     };
     plots.push(new uPlot({
       ...common(tall + (last ? 46 : 0)),
       scales: { x: xScale, y: { range: yRange } },
       axes: [xAxis(last), {
         stroke: ink, grid, ticks: { stroke: ink, width: 0.8, size: 4 }, font: "12px Roboto, Helvetica, Arial, sans-serif",
-        label: panel.title, labelSize: 20, labelFont: "12px Roboto, Helvetica, Arial, sans-serif", size: LEFT - 20, gap: 3,
+        label: panel.title, labelSize: 20, labelFont: "12px Roboto, Helvetica, Arial, sans-serif", size: LEFT - 20, gap: 3, values: tickLabels,
       }],
       series: [{ label: "time", value: (u, v) => v === null ? "–" : number(v) + " s" }].concat(panel.curves.map(curve => ({
         label: curve.name, stroke: curve.colour, width: 1.4, points: { show: false }, paths: broken,

@@ -48,7 +48,7 @@ pub enum FileError {
         line: u64,
         /// Name of the column, or its position from 1 where it has none.
         column: String,
-        /// The cell as written.
+        /// The cell as written, cut if it is long.
         text: String,
         /// What belongs there.
         expected: &'static str,
@@ -115,6 +115,23 @@ impl FileError {
 
     pub(crate) fn writing(path: &Path) -> impl FnOnce(std::io::Error) -> FileError {
         move |source| FileError::Write { path: path.to_path_buf(), source }
+    }
+
+    /// A cell of a text file that holds something else than `expected`.
+    pub(crate) fn cell(
+        path: &Path,
+        line: u64,
+        column: &str,
+        text: &str,
+        expected: &'static str,
+    ) -> FileError {
+        const LONGEST: usize = 60;
+        let mut text: String = text.chars().take(LONGEST + 1).collect();
+        if text.chars().count() > LONGEST {
+            text.pop();
+            text.push('…');
+        }
+        FileError::Cell { path: path.to_path_buf(), line, column: column.to_owned(), text, expected }
     }
 
     pub(crate) fn format<E>(path: &Path, format: &'static str) -> impl FnOnce(E) -> FileError

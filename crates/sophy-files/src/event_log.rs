@@ -91,13 +91,7 @@ pub fn read_events(path: &Path) -> Result<Vec<EventRecord>, FileError> {
             let (found, expected) = (record.len(), HEADER.len());
             return Err(FileError::CellCount { path: path.to_path_buf(), line, found, expected });
         }
-        let wrong = |i: usize, expected| FileError::Cell {
-            path: path.to_path_buf(),
-            line,
-            column: HEADER[i].to_owned(),
-            text: record[i].to_owned(),
-            expected,
-        };
+        let wrong = |i: usize, expected| FileError::cell(path, line, HEADER[i], &record[i], expected);
         events.push(EventRecord {
             time: record[0].parse().map_err(|_| wrong(0, "a number"))?,
             step: record[1].parse().map_err(|_| wrong(1, "a whole number"))?,

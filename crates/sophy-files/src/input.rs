@@ -164,13 +164,7 @@ impl<'a> Lines<'a> {
     }
 
     fn wrong(&self, row: &LineCells<'_>, column: usize, expected: &'static str) -> FileError {
-        FileError::Cell {
-            path: self.path.to_path_buf(),
-            line: row.line,
-            column: self.column_name(column),
-            text: row.cells[column].to_owned(),
-            expected,
-        }
+        FileError::cell(self.path, row.line, &self.column_name(column), row.cells[column], expected)
     }
 }
 

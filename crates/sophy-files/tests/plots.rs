@@ -1,5 +1,7 @@
 //! Pictures of results like those that the examples give. They stay in the target folder to be looked at.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod plots {
     pub(super) mod data;
 }
@@ -68,6 +70,7 @@ fn long_hopper_run_shows_its_many_transitions_in_the_strip_only() {
     let (svg, _) = drawn("hopper-long", &table, &events, &PlotOptions::default());
     assert!(svg.len() < 500_000, "{}", svg.len());
     has(&texts(&svg), &["position (m)", "changes too fast to show"]);
+    has(&texts(&svg), &[&format!("{} transitions, too many to mark", events.len())]);
 }
 
 #[test]

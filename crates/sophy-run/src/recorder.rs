@@ -221,7 +221,7 @@ impl Recorder {
                     trajectory.push_location(automaton.position(), time, location.0);
                 }
             }
-            Record::Jump { .. } => {}
+            Record::Jump { .. } | Record::Step { .. } => {}
         }
     }
 

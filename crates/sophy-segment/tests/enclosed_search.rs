@@ -8,7 +8,10 @@ use jet::Jet;
 use proptest::prelude::*;
 use sophy_segment::{Interval, Search, Sign, Start, first_crossing};
 
-const BUDGET: u32 = 1000;
+type Value = dyn Fn(f64) -> f64;
+type Function = dyn Fn(Jet) -> Jet;
+
+const BUDGET: u32 = 20_000;
 
 /// The search over a function written on jets.
 fn search(g: impl Fn(Jet) -> Jet, from: f64, to: f64, start: Start) -> Search {
@@ -82,8 +85,13 @@ fn factor() -> impl Strategy<Value = f64> {
     prop::sample::select(vec![-3.0, -1.0, -0.125, 0.125, 1.0, 3.0])
 }
 
+/// Failures are not written into the source tree; a case worth keeping becomes a test of its own.
+fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #![proptest_config(cases(3000))]
 
     #[test]
     fn polynomials_with_known_roots(a in factor(), roots in roots(), from in -24_i32..24, length in 1_i32..48) {
@@ -113,16 +121,21 @@ proptest! {
 
     /// What rounding left of a located root, on either side, is not found again.
     #[test]
-    fn starting_next_to_a_root(a in factor(), roots in roots(), ulps in -3_i32..4, length in 1_i32..48) {
+    fn starting_next_to_a_root(a in factor(), roots in roots(), multiplicity in prop::sample::select(vec![1_usize, 1, 3]), ulps in -3_i32..4, length in 1_i32..48) {
         let root = roots[0];
-        let roots: Vec<f64> = [root].into_iter().chain(roots.into_iter().filter(|&r| r != root)).collect();
-        let step = root.abs().next_up() - root.abs();
+        // An even root located beside itself begins with the sign of its slope there, and so does a triple one
+        // whose slope is lost in rounding.
+        let others = roots.into_iter().filter(|&r| r != root);
+        let roots: Vec<f64> = vec![root; multiplicity].into_iter().chain(others).collect();
+        let step = root.abs().max(0.0625) * f64::EPSILON;
         let from = root + f64::from(ulps) * step;
         let to = root + f64::from(length) / 16.0 + 1.0 / 32.0;
         let (sign, expected) = first_change(a, &roots, root, to);
-        let c = expanded(a, &roots);
-        let tolerance = expected.map_or(0.0, |r| blur(&c, a, &roots, r));
-        assert_near(search(horner(&c), from, to, on_surface(sign)), expected, tolerance)?;
+        if multiplicity == 1 {
+            let c = expanded(a, &roots);
+            let tolerance = expected.map_or(0.0, |r| blur(&c, a, &roots, r));
+            assert_near(search(horner(&c), from, to, on_surface(sign)), expected, tolerance)?;
+        }
         assert_near(search(factored(a, &roots), from, to, on_surface(sign)), expected, 4.0 * f64::EPSILON)?;
     }
 
@@ -176,7 +189,7 @@ proptest! {
 
     #[test]
     fn random_functions(kind in 0..4, a in 0.2..9.0, b in -1.3..1.3, w in 0.5..20.0, from in -2.0..2.0, length in 0.1..6.0) {
-        let (value, jet): (Box<dyn Fn(f64) -> f64>, Box<dyn Fn(Jet) -> Jet>) = match kind {
+        let (value, jet): (Box<Value>, Box<Function>) = match kind {
             0 => (
                 Box::new(move |t| libm::sin(a * t) + b),
                 Box::new(move |t| (Jet::constant(a) * t).sin() + Jet::constant(b)),
@@ -240,7 +253,7 @@ fn conventions() {
     let square = |t: Jet| t.square();
     let zero = |_: Jet| Jet::constant(0.0);
     let falling = |t: Jet| -t;
-    let table: [(&dyn Fn(Jet) -> Jet, f64, f64, Start, Search); 12] = [
+    let table: [(&Function, f64, f64, Start, Search); 12] = [
         (&zero, 0.0, 1.0, decided(Sign::Zero), Search::None),
         (&zero, 0.0, 1.0, decided(Sign::Positive), Search::Crossing(0.0)),
         (&square, 0.0, 1.0, decided(Sign::Zero), Search::Crossing(0.0)),
@@ -287,7 +300,7 @@ fn what_cannot_be_decided_is_said() {
     };
     let found = first_crossing(&mut |t| wild(Jet::variable(t)).0, 0.0, 9.0, decided(Sign::Positive), 10);
     assert!(matches!(found, Search::Undecided(t) if t < 1.0), "{found:?}");
-    assert_eq!(search(wild, 0.0, 0.2, decided(Sign::Positive)), Search::None);
+    assert_eq!(search(wild, 0.0, 0.5, decided(Sign::Positive)), Search::None);
 }
 
 /// Ordinary windows take few boxes.

@@ -32,7 +32,8 @@ const UNARY: &[Unary] = &[
     ("cosh", Interval::cosh, libm::cosh),
     ("tanh", Interval::tanh, libm::tanh),
     ("asinh", Interval::asinh, libm::asinh),
-    ("acosh", Interval::acosh, libm::acosh),
+    // libm returns numbers for some arguments below 1
+    ("acosh", Interval::acosh, |x| if x < 1.0 { f64::NAN } else { libm::acosh(x) }),
     ("atanh", Interval::atanh, libm::atanh),
 ];
 
@@ -76,8 +77,13 @@ fn interval_and_point() -> impl Strategy<Value = (Interval, f64)> {
     })
 }
 
+/// Failures are not written into the source tree; a case worth keeping becomes a test of its own.
+fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20_000))]
+    #![proptest_config(cases(20_000))]
 
     #[test]
     fn functions_of_one_argument((x, p) in interval_and_point()) {

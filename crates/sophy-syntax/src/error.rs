@@ -32,7 +32,24 @@ impl SyntaxError {
     }
 }
 
-/// The codes of this crate.
+/// Every code of this crate with the kind of mistake it names.
+pub const CODES: &[(Code, &str)] = &[
+    (codes::CHARACTER, "a character that an expression cannot have"),
+    (codes::NUMBER, "a malformed number"),
+    (codes::QUOTE, "a quoted name that does not end, or is empty"),
+    (codes::UNMATCHED, "a `)` that closes nothing"),
+    (codes::UNCLOSED, "a `(` that is never closed"),
+    (codes::MISSING_EXPRESSION, "an expression is missing"),
+    (codes::MISSING_OPERATOR, "an operator is missing"),
+    (codes::CHAINED_COMPARISON, "comparisons in a chain"),
+    (codes::INCOMPLETE_IF, "an `if` without `then` or `else`"),
+    (codes::PARENTHESES_NEEDED, "an `if` or `not` that needs parentheses"),
+    (codes::TOO_DEEP, "an expression nested too deeply"),
+    (codes::UNEXPECTED, "something stands where it does not belong"),
+    (codes::SPELLING, "an operator spelt as in another language"),
+    (codes::STRING, "a string in an expression of numbers"),
+];
+
 pub(crate) mod codes {
     use sophy_diagnostics::Code;
 

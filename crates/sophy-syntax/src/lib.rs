@@ -26,6 +26,6 @@ mod lexer;
 mod parse;
 mod parser;
 
-pub use error::SyntaxError;
-pub use kinds::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+pub use error::{CODES, SyntaxError};
+pub use kinds::{Sophy, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 pub use parse::{Parse, parse_expression};

@@ -1,1 +1,8 @@
-//! (being built)
+//! For tests only: models built by hand (no front end involved) and reference data.
+
+mod build;
+pub mod problems;
+mod reference;
+
+pub use build::{Build, Place};
+pub use reference::{Reference, repository};

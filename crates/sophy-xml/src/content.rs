@@ -166,7 +166,6 @@ fn name_children(element: &mut Element, particles: &[Particle], diagnostics: &mu
             )
         };
         if known {
-            // It is not read here, but what it contains is checked.
             child.meant = schema::element(&child.name).map(|model| model.name);
         } else {
             child.meant = closest(&child.name, particles.iter().filter(open).map(|p| p.name))
@@ -201,8 +200,9 @@ fn check_order(element: &Element, particles: &[Particle], diagnostics: &mut Diag
     let stay = longest_in_order(&children.iter().map(|(at, _)| *at).collect::<Vec<_>>(), particles.len());
     let kept = |index: usize| stay.binary_search(&index).is_ok();
     for (_, (at, child)) in children.iter().enumerate().filter(|(index, _)| !kept(*index)) {
-        let before = stay.iter().rev().map(|&kept| &children[kept]).filter(|(place, _)| place <= at).next();
-        let after = stay.iter().map(|&kept| &children[kept]).find(|(place, _)| place > at);
+        let split = stay.partition_point(|&kept| children[kept].0 <= *at);
+        let before = stay[..split].last().map(|&kept| children[kept]);
+        let after = stay.get(split).map(|&kept| children[kept]);
         let message = format!("`{}` is out of order in `{}`", child.name, element.name);
         let mut diagnostic = Diagnostic::error(WRONG_ORDER, child.name_span, message);
         // The neighbour on whose wrong side it stands.

@@ -96,8 +96,8 @@ impl<'a> Parser<'a> {
             } else if rest.starts_with(']') {
                 self.take(1);
                 return;
-            } else if rest.starts_with("<!--") {
-                self.take(4 + rest[4..].find("-->").map_or(rest.len(), |at| at + 3));
+            } else if let Some(comment) = rest.strip_prefix("<!--") {
+                self.take(4 + comment.find("-->").map_or(rest.len(), |at| at + 3));
             } else if rest.starts_with("<?") {
                 self.take(end("?>"));
             } else if rest.starts_with("<!ENTITY") {

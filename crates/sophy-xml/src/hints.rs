@@ -7,6 +7,7 @@
 //! | `unit NAME` | unit | of a state, input, output or constant |
 //! | `function f(a, b)` | expression | a function for the expressions of the file |
 //!
+//! The first one wins over a state called `location`, which is a reserved word.
 //! All others are for other tools (thesis, A.4: "meta information to the Sophy environment") and are kept.
 
 use crate::codes::{BAD_HINT, NEAR_HINT, SECOND_INITIAL_LOCATION};

@@ -50,7 +50,7 @@ impl Parser<'_> {
     /// Text before or after the root element.
     pub(crate) fn outside(&mut self) {
         let rest = self.rest();
-        let end = rest[1..].find('<').map_or(rest.len(), |at| at + 1);
+        let end = rest.match_indices('<').map(|(at, _)| at).find(|at| *at > 0).unwrap_or(rest.len());
         let run = &rest[..end];
         let blanks = run.len() - run.trim_start().len();
         self.take(blanks);
@@ -125,7 +125,9 @@ impl Parser<'_> {
     /// `<?target …?>`
     pub(crate) fn instruction(&mut self) {
         let rest = self.rest();
-        let Some(end) = rest.find("?>") else { return self.unterminated("instruction", "?>") };
+        let Some(end) = rest[2..].find("?>").map(|at| at + 2) else {
+            return self.unterminated("instruction", "?>");
+        };
         let body = &rest[2..end];
         let (target, content) = body.split_at(body.find(char::is_whitespace).unwrap_or(body.len()));
         let place = self.take(end + 2);

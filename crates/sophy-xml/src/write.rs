@@ -76,6 +76,9 @@ fn variables(
     variables: &[VariableDeclaration],
     out: &mut Output,
 ) -> io::Result<()> {
+    if variables.is_empty() {
+        return out.text(group, "");
+    }
     out.group(group, |out| {
         variables.iter().try_for_each(|variable| match variable.documentation.as_str() {
             "" => out.text(member, &variable.name.value),
@@ -170,7 +173,8 @@ impl Output {
             return self.leaf(BytesStart::new("documentation"), &escaped);
         }
         let indent = "  ".repeat(self.depth + 1);
-        let indented = |line| if line == "" { "\n".to_owned() } else { format!("\n{indent}{line}") };
+        let indented =
+            |line: &str| if line.is_empty() { "\n".to_owned() } else { format!("\n{indent}{line}") };
         let lines: String = escaped.split('\n').map(indented).collect();
         self.leaf(BytesStart::new("documentation"), &format!("{lines}\n{}", "  ".repeat(self.depth)))
     }

@@ -9,7 +9,7 @@ use sophy_ir::{Binary, Comparison, Unary};
 use sophy_syntax::ast::{Call, Expression};
 
 /// How many nodes a model may have; functions that call one another can multiply without bound.
-const LARGEST: usize = 2_000_000;
+const LARGEST: usize = 1_000_000;
 
 impl Lowering<'_, '_, '_> {
     pub(crate) fn call(&mut self, call: &Call) -> Option<Typed> {

@@ -35,11 +35,8 @@ pub(crate) fn lower_definitions<'a>(
     let constants = &declarations.constants;
     let of_constants =
         constants.iter().map(|c| Definition { name: &c.name, text: &c.value, is_function: false });
-    let of_functions = declarations.functions.iter().map(|f| Definition {
-        name: &f.name,
-        text: &f.body,
-        is_function: true,
-    });
+    let of_functions =
+        declarations.functions.iter().map(|f| Definition { name: &f.name, text: &f.body, is_function: true });
     let all: Vec<Definition<'_>> = of_constants.chain(of_functions).collect();
     let index_of = |name: &str| {
         let symbol = names.symbol(name)?;

@@ -9,9 +9,7 @@ use crate::names::{Kind, Names};
 use crate::predefined::Predefined;
 use sophy_diagnostics::{Diagnostic, Span};
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Node, NodeId, Unary, VariableId};
-use sophy_syntax::ast::{
-    self, ChainOperator, ComparisonOperator, Expression, LiteralValue, PrefixOperator,
-};
+use sophy_syntax::ast::{self, ChainOperator, ComparisonOperator, Expression, LiteralValue, PrefixOperator};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -222,14 +220,13 @@ impl Lowering<'_, '_, '_> {
 
     fn chain(&mut self, chain: &ast::Chain) -> Option<Typed> {
         let steps = chain.steps();
-        let logical = steps.iter().any(|s| matches!(s.operator, Some(ChainOperator::And | ChainOperator::Or)));
-        let mut value =
-            if logical { self.condition(chain.first()) } else { self.number(chain.first()) };
+        let logical =
+            steps.iter().any(|s| matches!(s.operator, Some(ChainOperator::And | ChainOperator::Or)));
+        let mut value = if logical { self.condition(chain.first()) } else { self.number(chain.first()) };
         for step in steps {
             let range = step.operand.as_ref().map(Expression::range);
             let written = step.operand.as_ref().map(|operand| self.written(operand));
-            let operand =
-                if logical { self.condition(step.operand) } else { self.number(step.operand) };
+            let operand = if logical { self.condition(step.operand) } else { self.number(step.operand) };
             if step.operator == Some(ChainOperator::Divide)
                 && let (Some(divisor), Some(range), Some(written)) = (operand, range, written)
             {

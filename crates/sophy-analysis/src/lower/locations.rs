@@ -149,7 +149,8 @@ fn lower_maps<'a>(
         if map_of.get(name) != Some(&index) {
             continue;
         }
-        let (Some(symbol), Some(variable)) = (context.names.symbol(name), context.names.variable(name)) else {
+        let (Some(symbol), Some(variable)) = (context.names.symbol(name), context.names.variable(name))
+        else {
             continue;
         };
         if symbol.kind == Kind::State {
@@ -164,5 +165,6 @@ fn lower_maps<'a>(
         let right = value.map(|value| value.node);
         lowered.push(LoweredEquation { variable, right, span: map.right.map.whole() });
     }
+    lowered.sort_by_key(|map| map.variable);
     values
 }

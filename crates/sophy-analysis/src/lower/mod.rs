@@ -7,18 +7,18 @@ mod functions;
 mod initial;
 mod locations;
 
-pub(crate) use definitions::{Definition, Definitions, lower_definitions};
+pub(crate) use definitions::{Definition, lower_definitions};
 pub(crate) use expression::{Context, Scope};
 
 pub(crate) use initial::lower_initial_values;
 pub(crate) use locations::{LoweredEquation, LoweredLocation, LoweredTransition, Strays, lower_location};
 
 use crate::declarations::ExpressionText;
-use sophy_syntax::SyntaxKind;
+use sophy_syntax::{SyntaxElement, SyntaxKind};
 
 /// The names that stand in an expression, as they are spelt.
 pub(crate) fn names_in(text: &ExpressionText) -> Vec<String> {
-    let tokens = text.parse.syntax().descendants_with_tokens().filter_map(|element| element.into_token());
+    let tokens = text.parse.syntax().descendants_with_tokens().filter_map(SyntaxElement::into_token);
     tokens
         .filter_map(|token| match token.kind() {
             SyntaxKind::Name => Some(token.text().to_owned()),

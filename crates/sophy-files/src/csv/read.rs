@@ -34,13 +34,10 @@ pub(crate) fn read_csv(path: &Path) -> Result<Table, FileError> {
         for (column, text) in columns.iter_mut().zip(&record) {
             match &mut column.cells {
                 Cells::Label(labels) => labels.push(text),
-                Cells::Real(values) => values.push(number(text).ok_or_else(|| FileError::Cell {
-                    path: path.to_path_buf(),
-                    line,
-                    column: column.name.clone(),
-                    text: text.to_owned(),
-                    expected: "a number",
-                })?),
+                Cells::Real(values) => values.push(
+                    number(text)
+                        .ok_or_else(|| FileError::cell(path, line, &column.name, text, "a number"))?,
+                ),
             }
         }
     }

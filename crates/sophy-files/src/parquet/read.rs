@@ -1,6 +1,7 @@
 use std::fs::File;
 use std::path::Path;
 
+use parquet::basic::{ConvertedType, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::Result as ParquetResult;
@@ -28,7 +29,6 @@ pub(crate) fn read_parquet(path: &Path) -> Result<Table, FileError> {
     let mut columns = Vec::new();
     for column in reader.metadata().file_metadata().schema_descr().columns() {
         let name = column.path().string();
-        use parquet::basic::Type;
         let cells = match column.physical_type() {
             Type::DOUBLE | Type::FLOAT | Type::INT32 | Type::INT64 if column.max_rep_level() == 0 => {
                 Cells::Real(Vec::new())
@@ -50,20 +50,25 @@ fn read_groups(reader: &SerializedFileReader<File>, columns: &mut [FileColumn]) 
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         for (i, column) in columns.iter_mut().enumerate() {
-            let highest = group.metadata().column(i).column_descr().max_def_level();
+            let kind = group.metadata().column(i).column_descr_ptr();
+            let highest = kind.max_def_level();
+            let unsigned = kind.converted_type() == ConvertedType::UINT_32;
             let cells = &mut column.cells;
             match group.get_column_reader(i)? {
                 ColumnReader::DoubleColumnReader(r) => {
-                    read(r, rows, highest, |v| cells.push_real(v.copied()))?
+                    read(r, rows, highest, |v| cells.push_real(v.copied()))?;
                 }
                 ColumnReader::FloatColumnReader(r) => {
-                    read(r, rows, highest, |v| cells.push_real(v.map(|&v| v.into())))?
+                    read(r, rows, highest, |v| cells.push_real(v.map(|&v| v.into())))?;
+                }
+                ColumnReader::Int32ColumnReader(r) if unsigned => {
+                    read(r, rows, highest, |v| cells.push_real(v.map(|v| v.cast_unsigned().into())))?;
                 }
                 ColumnReader::Int32ColumnReader(r) => {
-                    read(r, rows, highest, |v| cells.push_real(v.map(|&v| v.into())))?
+                    read(r, rows, highest, |v| cells.push_real(v.map(|&v| v.into())))?;
                 }
                 ColumnReader::Int64ColumnReader(r) => {
-                    read(r, rows, highest, |v| cells.push_real(v.map(|&v| v as f64)))?
+                    read(r, rows, highest, |v| cells.push_real(v.map(|&v| v as f64)))?;
                 }
                 ColumnReader::ByteArrayColumnReader(r) => read(r, rows, highest, |v: Option<&ByteArray>| {
                     cells.push_text(&v.map_or_else(Default::default, |v| String::from_utf8_lossy(v.data())));

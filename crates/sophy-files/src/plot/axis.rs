@@ -34,9 +34,9 @@ pub(super) fn range(extent: Option<(f64, f64)>, margin: f64) -> (f64, f64) {
     if span > 1e-11 * size && span > 1e-280 {
         (low - margin * span, high + margin * span)
     } else if size > 1e-280 {
-        (low - 0.1 * size, high + 0.1 * size)
+        (low - 0.12 * size, high + 0.12 * size)
     } else {
-        (-1.0, 1.0)
+        (-1.2, 1.2)
     }
 }
 
@@ -58,7 +58,7 @@ impl Axis {
         let base = offset.unwrap_or(0.0);
         let shown = f64::max((low - base).abs(), (high - base).abs());
         let order = libm::floor(libm::log10(shown)) as i32;
-        let exponent = if (-3..5).contains(&order) { 0 } else { 3 * order.div_euclid(3) };
+        let exponent = if (-2..5).contains(&order) { 0 } else { 3 * order.div_euclid(3) };
         let decimals = usize::try_from(exponent - decade).unwrap_or(0);
 
         let first = libm::ceil((low - base) / step - 1e-9) as i64;

@@ -8,15 +8,19 @@ use sophy_record::{ColumnKind, Table};
 use super::PlotOptions;
 use super::axis::{Axis, LARGEST, extent, range};
 use super::content::{Content, column, value_before};
+use super::curve::round;
 use super::palette;
 use super::svg::{Anchor, INK, Svg, TEXT};
 use super::text::{fitted, width};
 use crate::FileError;
 
 const DEFAULT_SIZE: f64 = 460.0;
-/// Edges of the portrait that are kept, some 20 bytes each.
+/// Edges of the portrait, some 25 bytes each; the picture becomes coarser to stay below.
 const MOST_EDGES: usize = 15_000;
-const MOST_DOTS: usize = 2_000;
+/// Pixels of the coarsest cell.
+const COARSEST_CELL: f64 = 4.0;
+/// With more places of transitions than this they hide the curve.
+const MOST_DOTS: usize = 300;
 
 /// Draws `vertical` over `horizontal` as a square figure.
 pub(super) fn phase_figure(
@@ -45,9 +49,18 @@ pub(super) fn phase_figure(
         _ => Vec::new(),
     };
     let side = sheet - left - 16.0;
-    let key = Key::new(&locations, !content.marks.is_empty(), left, left + side);
-    let height = top + side + 44.0 + key.height;
     let place = Place { left, top, side, x_axis, y_axis };
+    let dots = transition_points(content, &place, across, up);
+    let marked = dots.len() <= MOST_DOTS;
+    let transitions = match (dots.is_empty(), marked) {
+        (true, _) => None,
+        (false, true) => Some((Sign::Transition, "transition".to_owned())),
+        (false, false) => {
+            Some((Sign::Nothing, format!("{} transitions, too many to mark", content.marks.len())))
+        }
+    };
+    let key = Key::new(&locations, transitions, left, left + side);
+    let height = top + side + 44.0 + key.height;
 
     let mut svg = Svg::new(sheet, height, title.unwrap_or("Phase portrait"));
     if let Some(title) = title {
@@ -55,7 +68,7 @@ pub(super) fn phase_figure(
     }
     place.draw_grid(&mut svg);
     draw_orbit(&mut svg, content, &place, across, up);
-    draw_points(&mut svg, content, &place, across, up);
+    draw_points(&mut svg, &place, across, up, if marked { &dots } else { &[] });
     let x_title = place.x_axis.title(horizontal, across_unit);
     svg.text(
         (left + 0.5 * side, top + side + 33.0),
@@ -115,89 +128,129 @@ impl Place {
     }
 }
 
-/// Edges drawn already are skipped: an orbit that repeats costs no more than its first round. If that is not
-/// enough the grid of the points becomes coarser.
+/// The curve in the colours of the locations, and its jumps.
 fn draw_orbit(svg: &mut Svg, content: &Content<'_>, place: &Place, across: &[f64], up: &[f64]) {
-    let mut cell = 0.05;
-    let orbit = loop {
-        match orbit(content, place, across, up, cell) {
-            Some(orbit) => break orbit,
+    let mut cell = 0.25;
+    let lines = loop {
+        let limit = if cell < COARSEST_CELL { MOST_EDGES } else { usize::MAX };
+        match orbit(content, place, across, up, cell, limit) {
+            Some(lines) => break lines,
             None => cell *= 2.0,
         }
     };
-    svg.path(
-        &orbit.jumps,
-        &format!("stroke=\"{INK}\" stroke-opacity=\"0.6\" stroke-width=\"0.8\" stroke-dasharray=\"1.2 2\""),
-    );
-    for (location, line) in orbit.lines {
-        let colour = location.map_or_else(|| palette::CURVES[0].to_owned(), palette::location);
-        let style = "stroke-width=\"1.2\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";
+    for (ink, line) in lines {
+        let (colour, style) = match ink {
+            Ink::Jump => {
+                (INK.to_owned(), "stroke-width=\"0.8\" stroke-opacity=\"0.6\" stroke-dasharray=\"1.2 2\"")
+            }
+            Ink::Plain => (palette::CURVES[0].to_owned(), SOLID),
+            Ink::Location(location) => (palette::location(location), SOLID),
+        };
         svg.path(&line, &format!("stroke=\"{colour}\" {style}"));
     }
 }
 
-#[derive(Default)]
-struct Orbit {
-    lines: BTreeMap<Option<u32>, String>,
-    jumps: String,
+const SOLID: &str = "stroke-width=\"1.2\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+enum Ink {
+    Jump,
+    Plain,
+    Location(u32),
 }
 
-fn orbit(content: &Content<'_>, place: &Place, across: &[f64], up: &[f64], cell: f64) -> Option<Orbit> {
+/// An edge that would only touch cells of its colour that are drawn already is left out: an orbit that repeats
+/// costs no more than its first round, and a cloud no more than its cells. `None` if it takes more than `limit`.
+fn orbit(
+    content: &Content<'_>,
+    place: &Place,
+    across: &[f64],
+    up: &[f64],
+    cell: f64,
+    limit: usize,
+) -> Option<BTreeMap<Ink, String>> {
     let spans = match content.bands.as_slice() {
         [band] => band.spans.as_slice(),
         _ => &[],
     };
     let mut span = 0;
-    let mut orbit = Orbit::default();
-    let mut drawn: HashSet<[i32; 4]> = HashSet::new();
-    let mut before: Option<(f64, [i32; 2])> = None;
+    let mut lines: BTreeMap<Ink, String> = BTreeMap::new();
+    let mut edges = 0;
+    let across_cells = libm::ceil((place.left + place.side) / cell) as usize + 1;
+    let all_cells = across_cells * (libm::ceil((place.top + place.side) / cell) as usize + 1);
+    let mut covered: BTreeMap<Ink, Vec<bool>> = BTreeMap::new();
+    let mut before: Option<(f64, [f64; 2])> = None;
     // Where the pen of each colour stands.
-    let mut pens: BTreeMap<Option<u32>, [i32; 2]> = BTreeMap::new();
+    let mut pens: BTreeMap<Ink, [f64; 2]> = BTreeMap::new();
+    let cell_of = |[x, y]: [f64; 2]| (y / cell) as usize * across_cells + (x / cell) as usize;
     for ((&t, &x), &y) in content.time.iter().zip(across).zip(up) {
         if x.is_nan() || y.is_nan() || x.abs() >= LARGEST || y.abs() >= LARGEST {
             before = None;
             continue;
         }
-        let here = [place.x(x), place.y(y)].map(|v| libm::round(v / cell) as i32);
-        let coordinate = |p: [i32; 2]| p.map(|v| super::curve::round(f64::from(v) * cell, 2));
-        if let Some((old_time, old)) = before
-            && old != here
-            && drawn.insert([old[0], old[1], here[0], here[1]])
-        {
-            let ([x0, y0], [x1, y1]) = (coordinate(old), coordinate(here));
-            if old_time == t {
-                let _ = write!(orbit.jumps, "M{x0} {y0}L{x1} {y1}");
-            } else {
-                while spans.get(span + 1).is_some_and(|next| next.0 <= old_time) {
-                    span += 1;
-                }
-                let location = spans.get(span).map(|span| span.1);
-                let line = orbit.lines.entry(location).or_default();
-                if pens.insert(location, here) != Some(old) {
-                    let _ = write!(line, "M{x0} {y0}L");
-                }
-                let _ = write!(line, "{x1} {y1} ");
+        let here = [place.x(x), place.y(y)].map(|v| round(v, 2));
+        let Some((old_time, old)) = before else {
+            before = Some((t, here));
+            continue;
+        };
+        while spans.get(span + 1).is_some_and(|next| next.0 <= old_time) {
+            span += 1;
+        }
+        let new_location = spans.get(span + 1).is_some_and(|next| next.0 <= t);
+        if cell_of(old) == cell_of(here) && !new_location {
+            continue;
+        }
+        let ink = match spans.get(span) {
+            _ if old_time == t => Ink::Jump,
+            Some(span) => Ink::Location(span.1),
+            None => Ink::Plain,
+        };
+        let covered = covered.entry(ink).or_insert_with(|| vec![false; all_cells]);
+        let mut fresh = false;
+        let length = f64::max((here[0] - old[0]).abs(), (here[1] - old[1]).abs());
+        let pieces = libm::ceil(length / cell).max(1.0) as i32;
+        for piece in 0..=pieces {
+            let share = f64::from(piece) / f64::from(pieces);
+            let point = [0, 1].map(|axis| old[axis] + share * (here[axis] - old[axis]));
+            // All points lie on the sheet: the axes hold all the values.
+            if let Some(cell) = covered.get_mut(cell_of(point)) {
+                fresh |= !std::mem::replace(cell, true);
             }
-            if drawn.len() > MOST_EDGES && cell < 4.0 {
+        }
+        if fresh && old != here {
+            let line = lines.entry(ink).or_default();
+            if pens.insert(ink, here) != Some(old) {
+                let _ = write!(line, "M{} {}L", old[0], old[1]);
+            }
+            let _ = write!(line, "{} {} ", here[0], here[1]);
+            edges += 1;
+            if edges > limit {
                 return None;
             }
         }
         before = Some((t, here));
     }
-    Some(orbit)
+    Some(lines)
 }
 
-/// A dot where each transition was taken, a ring at the start, a square at the end.
-fn draw_points(svg: &mut Svg, content: &Content<'_>, place: &Place, across: &[f64], up: &[f64]) {
+/// Where transitions were taken, each place once.
+fn transition_points(content: &Content<'_>, place: &Place, across: &[f64], up: &[f64]) -> Vec<(f64, f64)> {
     let mut seen = HashSet::new();
+    let mut points = Vec::new();
     for &time in &content.marks {
         let (x, y) = (value_before(content.time, across, time), value_before(content.time, up, time));
-        if x.is_finite() && y.is_finite() && seen.len() < MOST_DOTS {
-            let (x, y) = (place.x(x), place.y(y));
-            if seen.insert([x, y].map(|v| libm::round(v) as i64)) {
-                svg.circle((x, y), 2.0, DOT);
-            }
+        let (x, y) = (place.x(x), place.y(y));
+        if x.is_finite() && y.is_finite() && seen.insert([x, y].map(|v| libm::round(v) as i64)) {
+            points.push((x, y));
         }
+    }
+    points
+}
+
+/// A dot at each transition, a ring at the start, a square at the end.
+fn draw_points(svg: &mut Svg, place: &Place, across: &[f64], up: &[f64], dots: &[(f64, f64)]) {
+    for &(x, y) in dots {
+        svg.circle((x, y), 2.0, DOT);
     }
     let finite = |i: &usize| across[*i].abs() < LARGEST && up[*i].abs() < LARGEST;
     let rows = 0..across.len().min(up.len());
@@ -217,8 +270,20 @@ const HOLLOW: &str = "fill=\"#fff\" fill-opacity=\"0.7\" stroke=\"#222\" stroke-
 enum Sign {
     Location(u32),
     Transition,
+    Nothing,
     Start,
     End,
+}
+
+impl Sign {
+    /// Room of the sign before its text.
+    fn indent(&self) -> f64 {
+        match self {
+            Sign::Location(_) => 24.0,
+            Sign::Nothing => 0.0,
+            Sign::Transition | Sign::Start | Sign::End => 12.0,
+        }
+    }
 }
 
 struct Key {
@@ -227,19 +292,16 @@ struct Key {
 }
 
 impl Key {
-    fn new(locations: &[(u32, &str)], marks: bool, left: f64, right: f64) -> Self {
+    fn new(locations: &[(u32, &str)], transitions: Option<(Sign, String)>, left: f64, right: f64) -> Self {
         let mut signs: Vec<(Sign, String)> =
             locations.iter().map(|&(location, name)| (Sign::Location(location), name.to_owned())).collect();
-        if marks {
-            signs.push((Sign::Transition, "transition".to_owned()));
-        }
+        signs.extend(transitions);
         signs.push((Sign::Start, "start".to_owned()));
         signs.push((Sign::End, "end".to_owned()));
         let (mut x, mut y) = (left, 0.0);
         let mut pieces = Vec::new();
         for (sign, text) in signs {
-            let indent = if matches!(sign, Sign::Location(_)) { 24.0 } else { 12.0 };
-            let room = indent + width(&text, TEXT);
+            let room = sign.indent() + width(&text, TEXT);
             if x > left && x + room > right {
                 (x, y) = (left, y + 17.0);
             }
@@ -252,7 +314,6 @@ impl Key {
     fn draw(&self, svg: &mut Svg, top: f64) {
         for (x, y, sign, text) in &self.pieces {
             let (y, middle) = (y + top, y + top - 4.0);
-            let mut indent = 12.0;
             match sign {
                 Sign::Location(location) => {
                     let colour = palette::location(*location);
@@ -261,13 +322,13 @@ impl Key {
                         (x + 18.0, middle),
                         &format!("stroke=\"{colour}\" stroke-width=\"2\""),
                     );
-                    indent = 24.0;
                 }
+                Sign::Nothing => {}
                 Sign::Transition => svg.circle((x + 4.0, middle), 2.2, DOT),
                 Sign::Start => svg.circle((x + 4.0, middle), 4.0, HOLLOW),
                 Sign::End => svg.rect((x + 0.5, middle - 3.5), (7.0, 7.0), HOLLOW),
             }
-            svg.text((x + indent, y), Anchor::Start, TEXT, text);
+            svg.text((x + sign.indent(), y), Anchor::Start, TEXT, text);
         }
     }
 }

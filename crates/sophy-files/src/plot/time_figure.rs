@@ -1,5 +1,7 @@
 //! Curves over time: panels above one another, strips of locations under them, one time axis.
 
+use std::fmt::Write;
+
 use super::PlotOptions;
 use super::axis::Axis;
 use super::content::{Band, Content, Panel};
@@ -75,6 +77,7 @@ enum Key {
     Location(u32, String),
     Fast,
     Mark(usize),
+    Unmarked(usize),
 }
 
 impl Layout {
@@ -88,7 +91,7 @@ impl Layout {
         };
         let top = if title.is_some() { 34.0 } else { 10.0 };
         let axes = |height: f64| -> Vec<Axis> {
-            let ticks = (height / 32.0).clamp(2.0, 8.0);
+            let ticks = (height / 28.0).clamp(2.0, 8.0);
             content.panels.iter().map(|panel| Axis::new(panel.range(), ticks)).collect()
         };
         let left_of = |axes: &[Axis]| {
@@ -110,7 +113,7 @@ impl Layout {
         let key_rows = key.last().map_or(0.0, |last| last.1 + LEGEND_ROW);
         let note =
             (!content.left_out.is_empty()).then(|| format!("not shown: {}", content.left_out.join(", ")));
-        let below = strips + 40.0 + key_rows + if note.is_some() { 16.0 } else { 0.0 };
+        let below = strips + 42.0 + key_rows + if note.is_some() { 16.0 } else { 0.0 };
         let gaps = content.panels.len().saturating_sub(1) as f64 * PANEL_GAP;
         let mut height_of_panel = wanted;
         if let Some((_, height)) = options.size
@@ -207,9 +210,10 @@ fn key(content: &Content<'_>, left: f64, right: f64) -> Vec<(f64, f64, Key)> {
         }
     }
     if !content.marks.is_empty() {
-        pieces.push(Key::Mark(content.marks.len()));
+        let count = content.marks.len();
+        pieces.push(if too_many(content, right - left) { Key::Unmarked(count) } else { Key::Mark(count) });
     }
-    let widths: Vec<f64> = pieces.iter().map(|piece| 19.0 + width(&piece.text(), TEXT)).collect();
+    let widths: Vec<f64> = pieces.iter().map(|piece| piece.indent() + width(&piece.text(), TEXT)).collect();
     rows(widths.into_iter(), left, right)
         .into_iter()
         .zip(pieces)
@@ -218,12 +222,18 @@ fn key(content: &Content<'_>, left: f64, right: f64) -> Vec<(f64, f64, Key)> {
 }
 
 impl Key {
+    /// Room of its sign.
+    fn indent(&self) -> f64 {
+        if matches!(self, Key::Unmarked(_)) { 0.0 } else { 19.0 }
+    }
+
     fn text(&self) -> String {
         match self {
             Key::Location(_, name) => name.clone(),
             Key::Fast => "changes too fast to show".to_owned(),
             Key::Mark(1) => "transition".to_owned(),
             Key::Mark(count) => format!("{count} transitions"),
+            Key::Unmarked(count) => format!("{count} transitions, too many to mark"),
         }
     }
 }
@@ -233,6 +243,7 @@ fn name_of<'a>(band: &Band<'a>, location: u32) -> &'a str {
 }
 
 /// A span of one location on the sheet; `None` where they change within less than a pixel.
+#[derive(Clone, Copy)]
 struct PixelSpan {
     from: f64,
     to: f64,
@@ -245,20 +256,31 @@ impl PixelSpan {
     }
 }
 
+/// Runs of at least this many spans, each less than a pixel wide, are a blur.
+const BLUR: usize = 4;
+
 fn pixel_spans(band: &Band<'_>, end: f64, to_x: impl Fn(f64) -> f64) -> Vec<PixelSpan> {
-    const THIN: f64 = 0.35;
-    let mut spans: Vec<PixelSpan> = Vec::new();
-    for (i, &(start, location)) in band.spans.iter().enumerate() {
-        let from = to_x(start);
-        let to = to_x(band.spans.get(i + 1).map_or(end, |next| next.0));
-        let location = (to - from >= THIN).then_some(location);
-        match spans.last_mut() {
-            Some(last) if last.location.is_none() && location.is_none() => last.to = to,
-            _ => spans.push(PixelSpan { from, to, location }),
+    let ends = band.spans.iter().skip(1).map(|next| next.0).chain([end]);
+    let all: Vec<PixelSpan> = band
+        .spans
+        .iter()
+        .zip(ends)
+        .map(|(&(start, location), end)| PixelSpan {
+            from: to_x(start),
+            to: to_x(end),
+            location: Some(location),
+        })
+        .collect();
+    let narrow = |span: &PixelSpan| span.to - span.from < 1.0;
+    let mut spans = Vec::new();
+    for run in all.chunk_by(|a, b| narrow(a) && narrow(b)) {
+        match run {
+            [first, .., last] if run.len() >= BLUR => {
+                spans.push(PixelSpan { from: first.from, to: last.to, location: None });
+            }
+            _ => spans.extend_from_slice(run),
         }
     }
-    // One thin span between wide ones is a hair line of its own; only a run of them is a blur.
-    spans.retain(|span| span.location.is_some() || span.to - span.from >= THIN);
     spans
 }
 
@@ -291,10 +313,9 @@ fn draw_panel(
     if content.marks.len() <= MOST_LINES {
         let mut data = String::new();
         for &time in &content.marks {
-            use std::fmt::Write;
             let _ = write!(data, "M{:.2} {:.2}V{:.2}", layout.x(time), place.top, place.bottom);
         }
-        svg.path(&data, "stroke=\"#000\" stroke-opacity=\"0.28\" stroke-width=\"0.5\"");
+        svg.path(&data, "stroke=\"#000\" stroke-opacity=\"0.22\" stroke-width=\"0.5\"");
     }
 
     svg.clip(&format!("panel{index}"), (layout.left, place.top - 1.0), (size.0 + 1.0, size.1 + 2.0));
@@ -374,22 +395,24 @@ fn draw_band(svg: &mut Svg, layout: &Layout, band: &Band<'_>, top: f64) {
     }
 }
 
-/// Small ticks on the strips; the only marks when there are many.
+/// Small ticks on the strips.
 fn draw_marks(svg: &mut Svg, content: &Content<'_>, layout: &Layout) {
     let Some(edge) = layout.panels.last().map(|place| place.bottom).or(layout.bands.first().copied()) else {
         return;
     };
+    if too_many(content, layout.right - layout.left) {
+        return;
+    }
     let mut data = String::new();
-    let mut before = f64::NEG_INFINITY;
     for &time in &content.marks {
-        use std::fmt::Write;
-        let x = layout.x(time);
-        if x - before >= 0.5 && x >= layout.left - 0.5 && x <= layout.right + 0.5 {
-            let _ = write!(data, "M{x:.1} {edge:.1}v4.5");
-            before = x;
-        }
+        let _ = write!(data, "M{:.2} {edge:.2}v4.5", layout.x(time));
     }
     svg.path(&data, "stroke=\"#000\" stroke-opacity=\"0.6\" stroke-width=\"0.6\"");
+}
+
+/// Whether the marks would run together.
+fn too_many(content: &Content<'_>, width: f64) -> bool {
+    content.marks.len() as f64 > 0.5 * width
 }
 
 fn draw_time_axis(svg: &mut Svg, content: &Content<'_>, layout: &Layout) {
@@ -414,12 +437,13 @@ fn draw_key(svg: &mut Svg, layout: &Layout) {
                 svg.rect((*x, y - 9.0), (14.0, 10.5), &fill);
             }
             Key::Fast => svg.rect((*x, y - 9.0), (14.0, 10.5), &format!("fill=\"{}\"", palette::FAST)),
+            Key::Unmarked(_) => {}
             Key::Mark(_) => {
                 let style = "stroke=\"#000\" stroke-opacity=\"0.6\" stroke-width=\"0.8\"";
-                svg.line((x + 10.0, y - 9.5), (x + 10.0, y + 2.0), style);
+                svg.line((x + 7.0, y - 9.5), (x + 7.0, y + 2.0), style);
             }
         }
-        svg.text((x + 19.0, *y), Anchor::Start, TEXT, &piece.text());
+        svg.text((x + piece.indent(), *y), Anchor::Start, TEXT, &piece.text());
     }
     if let Some((y, note)) = &layout.note {
         svg.text((layout.left, *y), Anchor::Start, SMALL, note);

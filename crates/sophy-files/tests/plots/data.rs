@@ -20,6 +20,10 @@ fn table(columns: Vec<Column>) -> Table {
     Table::new(Schema { columns, with_step: false }, Metadata { entries })
 }
 
+fn push(table: &mut Table, row: Row<'_>) {
+    assert!(table.row(row).is_ok());
+}
+
 fn event(time: f64, transition: &str, from: &str, to: &str) -> EventRecord {
     let (transition, from, to) = (transition.to_owned(), from.to_owned(), to.to_owned());
     EventRecord { time, step: 0, component: String::new(), transition, from, to }
@@ -36,7 +40,7 @@ pub(crate) fn hopper(stop: f64) -> (Table, Vec<EventRecord>) {
     let mut count = 0_u32;
     while t <= stop {
         if count.is_multiple_of(8) {
-            table.row(Row { time: t, step: 0, reals: &[y, v], labels: &[location] }).unwrap();
+            push(&mut table, Row { time: t, step: 0, reals: &[y, v], labels: &[location] });
         }
         let force = match location {
             0 => 0.0,
@@ -45,9 +49,9 @@ pub(crate) fn hopper(stop: f64) -> (Table, Vec<EventRecord>) {
         };
         v += step * (force - 9.81 - if location == 0 { 0.0 } else { 1.5 * v });
         y += step * v;
-        t += step;
-        pushed += step;
         count += 1;
+        t = f64::from(count) * step;
+        pushed += step;
         let next = match location {
             0 if y < 1.0 && v < 0.0 => Some((1, "touch-down")),
             1 if v >= 0.0 => Some((2, "bottom")),
@@ -56,13 +60,13 @@ pub(crate) fn hopper(stop: f64) -> (Table, Vec<EventRecord>) {
             _ => None,
         };
         if let Some((to, transition)) = next {
-            table.row(Row { time: t, step: 0, reals: &[y, v], labels: &[location] }).unwrap();
+            push(&mut table, Row { time: t, step: 0, reals: &[y, v], labels: &[location] });
             events.push(event(t, transition, names[location as usize], names[to as usize]));
             (location, pushed) = (to, 0.0);
             if location == 0 {
                 v *= 0.98;
             }
-            table.row(Row { time: t, step: 0, reals: &[y, v], labels: &[location] }).unwrap();
+            push(&mut table, Row { time: t, step: 0, reals: &[y, v], labels: &[location] });
         }
     }
     (table, events)
@@ -84,9 +88,10 @@ pub(crate) fn battery() -> (Table, Vec<EventRecord>) {
         for k in 0..=20 {
             let share = f64::from(k) / 20.0;
             let time = start + share * (end - start);
-            table
-                .row(Row { time, step: 0, reals: &[charge + share * (to - charge)], labels: &[location] })
-                .unwrap();
+            push(
+                &mut table,
+                Row { time, step: 0, reals: &[charge + share * (to - charge)], labels: &[location] },
+            );
         }
     }
     (table, events)
@@ -100,7 +105,7 @@ pub(crate) fn oscillator() -> Table {
         let decay = libm::exp(-0.08 * time);
         let (x, v) = (decay * libm::cos(2.0 * time), -2.0 * decay * libm::sin(2.0 * time));
         let x = if (280..290).contains(&i) { f64::NAN } else { x };
-        table.row(Row { time, step: 0, reals: &[x, v, 1e-3 * decay * decay], labels: &[] }).unwrap();
+        push(&mut table, Row { time, step: 0, reals: &[x, v, 1e-3 * decay * decay], labels: &[] });
     }
     table
 }
@@ -125,7 +130,7 @@ pub(crate) fn many_rows(rows: u32) -> Table {
         let b = libm::cos(0.23 * time) + 0.1 * noise();
         let peak = if i == rows / 3 { 40.0 } else { 9.81 };
         let labels = [(i / 500) % 2, (i / (rows / 7 + 1)) % 3];
-        table.row(Row { time, step: 0, reals: &[a, b, peak], labels: &labels }).unwrap();
+        push(&mut table, Row { time, step: 0, reals: &[a, b, peak], labels: &labels });
     }
     table
 }
@@ -140,7 +145,7 @@ pub(crate) fn constant(rows: u32) -> Table {
     ]);
     for i in 0..rows {
         let pressure = 101_325.0 + 1e-3 * libm::sin(0.3 * f64::from(i));
-        table.row(Row { time: f64::from(i), step: 0, reals: &[5.0, 0.0, pressure], labels: &[0] }).unwrap();
+        push(&mut table, Row { time: f64::from(i), step: 0, reals: &[5.0, 0.0, pressure], labels: &[0] });
     }
     table
 }

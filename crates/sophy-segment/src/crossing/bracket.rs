@@ -21,7 +21,7 @@ pub(super) fn turn(f: &mut impl FnMut(f64) -> f64, lo: f64, hi: f64, resolution:
             return hi;
         }
         let radius = (hi - lo) / 2.0;
-        let secant = if y_lo > 0.0 && y_hi < 0.0 { lo + (hi - lo) * (y_lo / (y_lo - y_hi)) } else { half };
+        let secant = if y_lo > 0.0 && y_hi <= 0.0 { lo + (hi - lo) * (y_lo / (y_lo - y_hi)) } else { half };
         let toward_half = if half >= secant { 1.0 } else { -1.0 };
         let truncation = (kappa * (hi - lo) * (hi - lo)).max(resolution).max(half.next_up() - half);
         let truncated =

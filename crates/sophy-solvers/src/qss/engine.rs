@@ -18,6 +18,8 @@ pub struct Qss<const ORDER: usize> {
     pub(super) records: Vec<Record>,
     /// When the rate of a state must be evaluated again because it bends, s.
     refresh: Vec<f64>,
+    /// Since when the rate of a state was evaluated only because it bends, s.
+    coasting: Vec<f64>,
     /// How often a state was scheduled at its own instant.
     repeats: Vec<u32>,
     pub(super) watches: Vec<WatchRecord>,
@@ -49,6 +51,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             settings,
             records: vec![Record::line(0.0, 0.0, 0.0); sources],
             refresh: vec![f64::INFINITY; states],
+            coasting: vec![0.0; states],
             repeats: vec![0; states],
             watches: vec![WatchRecord::default(); watches],
             locations: vec![LocationIndex(0); equations.automata.len()],
@@ -80,6 +83,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         record.tq = t;
         record.quantum = self.settings.quanta[i].at(x);
         self.statistics.steps += 1;
+        if journal.wanted {
+            journal.push(sophy_field::Record::Step { time: t, state: StateIndex::new(i) });
+        }
         // λ: what depends on it is evaluated, eq. (3.2.2)
         for &entry in e.entries(&e.influence[i]) {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
@@ -142,7 +148,11 @@ impl<const ORDER: usize> Qss<ORDER> {
         record.x = [record.x_at(t), f, if ORDER > 1 { 0.5 * f1 } else { 0.0 }];
         record.tx = t;
         self.statistics.rates += 1;
-        self.refresh[i] = if row.bends { t + self.trusted_for(i, f1, f2) } else { f64::INFINITY };
+        // A rate evaluated at its own refresh coasts on; anything else ends the coasting.
+        if self.refresh[i] > t {
+            self.coasting[i] = t;
+        }
+        self.refresh[i] = if row.bends { t + self.trusted_for(i, t, f1, f2) } else { f64::INFINITY };
         if journal.wanted {
             let coefficients = self.records[i].x;
             journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients });
@@ -154,14 +164,23 @@ impl<const ORDER: usize> Qss<ORDER> {
         Ok(())
     }
 
-    /// How long until the part of the rate that x leaves out has moved it by a quantum.
+    /// How long until the part of the rate that x leaves out has moved it by a quantum: QSS2 leaves out
+    /// ∫½f̈s² = ½f̈·s³/3, QSS1 ∫ḟs = ḟ·s²/2.
+    ///
+    /// A rate that coasts for τ, evaluated again and again without any change of a quantised variable, is
+    /// allowed only s/τ of a quantum per evaluation, so that what adds up stays of the order of the quantum
+    /// and the error converges with it at first order, as that of the method does.
     #[inline]
-    fn trusted_for(&self, i: usize, f1: f64, f2: f64) -> f64 {
-        let quantum = self.records[i].quantum;
-        // QSS2 leaves out ∫½f̈s² = ½f̈·s³/3, QSS1 ∫ḟs = ḟ·s²/2.
-        let trusted =
-            if ORDER > 1 { libm::cbrt(3.0 * quantum / f2.abs()) } else { (2.0 * quantum / f1.abs()).sqrt() };
-        if trusted < self.settings.trust { trusted } else { self.settings.trust }
+    fn trusted_for(&self, i: usize, t: f64, f1: f64, f2: f64) -> f64 {
+        let (quantum, coasted) = (self.records[i].quantum, t - self.coasting[i]);
+        let (alone, shared) = if ORDER > 1 {
+            let moved = 3.0 * quantum / f2.abs();
+            (libm::cbrt(moved), (moved / coasted).sqrt())
+        } else {
+            let moved = 2.0 * quantum / f1.abs();
+            (moved.sqrt(), moved / coasted)
+        };
+        alone.min(shared).min(self.settings.trust)
     }
 
     /// ta: when a state next needs attention (algorithm 3.1, eq. 3.6).
@@ -205,9 +224,17 @@ impl<const ORDER: usize> Qss<ORDER> {
         journal: &mut Journal,
     ) -> Result<(), Fault> {
         let mut entries = std::mem::take(&mut self.entries);
+        let entered = entries.len();
         for &state in fresh {
-            entries.extend_from_slice(e.entries(&e.influence[state.position()]));
-            entries.extend_from_slice(e.entries(&e.own[state.position()]));
+            for range in [&e.influence[state.position()], &e.own[state.position()]] {
+                let add = e.entries(range).iter().filter(|entry| {
+                    // An automaton that was entered has all its rates evaluated already.
+                    let rates = !e.block(**entry, &self.locations).rows.is_empty();
+                    !(rates && entries[..entered].iter().any(|other| other.owner == entry.owner))
+                });
+                let add: Vec<Entry> = add.copied().collect();
+                entries.extend(add);
+            }
         }
         entries.sort_unstable();
         entries.dedup();

@@ -1,0 +1,73 @@
+//! A name is declared twice, so that it is not clear what is meant where it is used. States, inputs, outputs,
+//! constants and functions share their names; only an output may have the name of a state, and is that state.
+
+use crate::names::Repeated;
+use sophy_diagnostics::{Code, Diagnostic, Span};
+
+pub(crate) const CODE: Code = Code("HS0107");
+
+pub(crate) fn diagnostic(repeated: &Repeated<'_>) -> Diagnostic {
+    let (name, first, again) = (repeated.name, repeated.first, repeated.again);
+    let message = if first.kind == again.kind {
+        format!("`{name}` is declared twice")
+    } else {
+        format!(
+            "`{name}` is declared twice: as {} and as {}",
+            first.kind.with_article(),
+            again.kind.with_article()
+        )
+    };
+    Diagnostic::error(CODE, again.span, message)
+        .label(first.span, format!("first declared here, as {}", first.kind.with_article()))
+        .help(format!("delete or rename one `{name}`"))
+}
+
+/// Two parameters of a function have one name.
+pub(crate) fn parameter(name: &str, first: Span, again: Span) -> Diagnostic {
+    Diagnostic::error(CODE, again, format!("two parameters are called `{name}`"))
+        .label(first, "the first")
+        .help("rename one of them")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::testing::{check, check_model};
+
+    #[test]
+    fn all_kinds_share_their_names() {
+        check(
+            "constant a = 1
+             state a
+             state b
+             state b
+             output c
+             output c
+             function b(x, x) = x
+             location A
+               der b = a
+               out c = b",
+            "error[HS0107] line 2 `a`: `a` is declared twice: as a constant and as a state
+               line 1 `a`: first declared here, as a constant
+               help: delete or rename one `a`
+             error[HS0107] line 4 `b`: `b` is declared twice
+               line 3 `b`: first declared here, as a state
+               help: delete or rename one `b`
+             error[HS0107] line 6 `c`: `c` is declared twice
+               line 5 `c`: first declared here, as an output
+               help: delete or rename one `c`
+             error[HS0107] line 7 `b`: `b` is declared twice: as a state and as a function
+               line 3 `b`: first declared here, as a state
+               help: delete or rename one `b`
+             error[HS0107] line 7 `x`: two parameters are called `x`
+               line 7 `x`: the first
+               help: rename one of them",
+        );
+    }
+
+    #[test]
+    fn an_output_may_be_a_state() {
+        let model = check_model("state x\noutput x\nlocation A\n der x = 1\n out x = x", "");
+        assert_eq!(model.variables.len(), 1);
+        assert!(model.components[0].locations[0].outputs.is_empty());
+    }
+}

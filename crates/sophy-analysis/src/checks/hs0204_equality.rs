@@ -1,0 +1,61 @@
+//! `=` or `<>` between quantities that vary continuously. Two such quantities are equal for an instant at most, and
+//! in floating-point arithmetic not even then: the condition would be a matter of luck.
+
+use sophy_diagnostics::{Code, Diagnostic, Span};
+use sophy_ir::Comparison;
+
+pub(crate) const CODE: Code = Code("HS0204");
+
+/// `left operator right`, as written.
+pub(crate) fn diagnostic(span: Span, operator: Comparison, left: &str, right: &str) -> Diagnostic {
+    let side = if operator == Comparison::Equal { "<" } else { ">" };
+    let symbol = operator.symbol();
+    error(span, format!("`{left} {symbol} {right}` asks for equality of what varies continuously"))
+        .help("for the instant of a crossing compare with `<` or `>`")
+        .help(format!("for values that change only at transitions write `abs({left} - {right}) {side} 0.5`"))
+}
+
+/// The comparison is in the function `name`, whose argument varies continuously.
+pub(crate) fn in_function(span: Span, name: &str, operator: Comparison) -> Diagnostic {
+    let symbol = operator.symbol();
+    error(span, format!("`{name}` compares what varies continuously with `{symbol}`"))
+        .help("compare with `<` or `>` in the function, or call it with constants")
+}
+
+fn error(span: Span, message: String) -> Diagnostic {
+    Diagnostic::error(CODE, span, message)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::testing::check;
+
+    #[test]
+    fn continuous_quantities_are_not_compared_for_equality() {
+        check(
+            "constant k = 2
+             state x
+             location A
+               der x = if k = 2 then 1 else 2
+               transition t when x = k goto A
+               transition u when (x > 1) = (x > 2) goto A",
+            "error[HS0204] line 5 `=`: `x = k` asks for equality of what varies continuously
+               help: for the instant of a crossing compare with `<` or `>`
+               help: for values that change only at transitions write `abs(x - k) < 0.5`",
+        );
+    }
+
+    #[test]
+    fn a_function_is_judged_where_it_is_called() {
+        check(
+            "constant k = 2
+             function zero(a) = if a = 0 then 1 else 0
+             state x
+             location A
+               der x = zero(k) + zero(x)",
+            "error[HS0204] line 5 `zero`: `zero` compares what varies continuously with `=`
+               line 2 `if a = 0 then 1 else 0`: it compares with `=` or `<>` here
+               help: compare with `<` or `>` in the function, or call it with constants",
+        );
+    }
+}
