@@ -2,7 +2,7 @@ use crate::declarations::{Declarations, Spanned, TransitionDeclaration, Variable
 use crate::lower::{LoweredEquation, LoweredLocation, LoweredTransition};
 use crate::names::{Kind, Names};
 use sophy_ir::{
-    Component, ComponentIndex, Equation, Graph, Location, Model, Node, NodeId, Reset, Transition, Trigger,
+    Component, ComponentIndex, Equation, Graph, Leaf, Location, Model, Node, NodeId, Reset, Transition, Trigger,
     Variable, VariableId, VariableKind,
 };
 use std::collections::HashMap;
@@ -14,14 +14,15 @@ pub(crate) fn assemble(
     constants: &HashMap<VariableId, NodeId>,
     initial: &HashMap<VariableId, NodeId>,
     locations: Vec<LoweredLocation>,
-    graph: Graph,
+    mut graph: Graph,
 ) -> Option<Model> {
-    let variables = variables(declarations, names, constants, initial)?;
-    let locations: Vec<Location> = locations
+    let mut variables = variables(declarations, names, constants, initial)?;
+    let mut locations: Vec<Location> = locations
         .into_iter()
         .enumerate()
         .map(|(position, lowered)| location(declarations, position, lowered, &graph))
         .collect::<Option<_>>()?;
+    state_outputs(declarations, names, &mut variables, &mut locations, &mut graph);
     let initial_location = match &declarations.initial_location {
         Some(name) => declarations.locations.iter().position(|l| l.name.value == name.value)?,
         None => 0,
@@ -90,6 +91,36 @@ fn variables(
     others(&own_outputs, VariableKind::Output);
     let nameless = variables.iter().any(|variable| variable.name.is_empty());
     (!nameless).then_some(variables)
+}
+
+/// An output that is a state becomes an output of its own whose value is that state everywhere.
+fn state_outputs(
+    declarations: &Declarations,
+    names: &Names<'_>,
+    variables: &mut Vec<Variable>,
+    locations: &mut [Location],
+    graph: &mut Graph,
+) {
+    for output in &declarations.outputs {
+        let Some(symbol) = names.symbol(&output.name.value) else { continue };
+        let Some(state) = names.variable(&output.name.value).filter(|_| symbol.kind == Kind::State) else {
+            continue;
+        };
+        let id = VariableId(variables.len() as u32);
+        let unit = variables[state.0 as usize].unit.clone();
+        variables.push(Variable {
+            name: output.name.value.clone(),
+            component: ComponentIndex(0),
+            kind: VariableKind::Output,
+            unit,
+            documentation: output.documentation.clone(),
+            span: Some(output.name.span),
+        });
+        let right = graph.leaf(Leaf::Variable(state));
+        for location in locations.iter_mut() {
+            location.outputs.push(Equation { variable: id, right, span: None });
+        }
+    }
 }
 
 fn location(

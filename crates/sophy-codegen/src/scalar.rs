@@ -50,8 +50,12 @@ macro_rules! through_libm {
 
 #[allow(clippy::float_cmp)]
 impl Scalar for f64 {
-    through_libm!(exp, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh);
+    through_libm!(exp, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, atanh);
 
+    #[inline]
+    fn acosh(self) -> Self {
+        sophy_ir::arithmetic::acosh(self)
+    }
     #[inline]
     fn of(value: f64) -> Self {
         value

@@ -64,7 +64,7 @@ impl Unary {
             Unary::Cosh => libm::cosh(x),
             Unary::Tanh => libm::tanh(x),
             Unary::Asinh => libm::asinh(x),
-            Unary::Acosh => libm::acosh(x),
+            Unary::Acosh => acosh(x),
             Unary::Atanh => libm::atanh(x),
             Unary::Exp => libm::exp(x),
             Unary::Ln => libm::log(x),
@@ -148,6 +148,12 @@ impl Comparison {
     }
 }
 
+/// acosh, NaN below 1 (the library gives a number there).
+#[inline]
+pub fn acosh(x: f64) -> f64 {
+    if x < 1.0 { f64::NAN } else { libm::acosh(x) }
+}
+
 /// −1, 0 or 1; NaN stays NaN.
 #[inline]
 pub fn sign(x: f64) -> f64 {
@@ -187,6 +193,7 @@ mod tests {
         assert_eq!(sign(0.0), 0.0);
         assert_eq!(sign(-3.0), -1.0);
         assert!(sign(f64::NAN).is_nan());
+        assert!(acosh(0.5).is_nan() && acosh(-5.0).is_nan() && acosh(1.0) == 0.0);
         assert_eq!(integer_power(2.0, 10), 1024.0);
         assert_eq!(integer_power(2.0, -2), 0.25);
         assert_eq!(integer_power(0.0, 0), 1.0);

@@ -67,7 +67,8 @@ mod tests {
     #[test]
     fn an_output_may_be_a_state() {
         let model = check_model("state x\noutput x\nlocation A\n der x = 1\n out x = x", "");
-        assert_eq!(model.variables.len(), 1);
-        assert!(model.components[0].locations[0].outputs.is_empty());
+        assert_eq!(model.variables.len(), 2);
+        let map = &model.components[0].locations[0].outputs[0];
+        assert_eq!(model.graph.node(map.right), sophy_ir::Node::Leaf(sophy_ir::Leaf::Variable(sophy_ir::VariableId(0))));
     }
 }

@@ -79,7 +79,10 @@ fn the_corrected_hopper_is_a_model() {
     let model = check_model(&text, "");
     assert_eq!(model.name, "RaibertsHopper");
     let names: Vec<&str> = model.variables.iter().map(|variable| variable.name.as_str()).collect();
-    assert_eq!(names, ["G", "Tp", "L", "GAMMA", "TAU", "ETA", "Position", "Speed", "Time", "ETA2"]);
+    let states = ["Position", "Speed", "Time", "ETA2"];
+    let outputs = ["Position", "Speed"];
+    let constants = ["G", "Tp", "L", "GAMMA", "TAU", "ETA"];
+    assert_eq!(names, [&constants[..], &states[..], &outputs[..]].concat());
     let component = &model.components[0];
     assert_eq!(component.initial_location, 0);
     let destinations: Vec<usize> = component

@@ -79,8 +79,11 @@ fn fall([p0, p1, p2]: [f64; 3]) -> Option<f64> {
 /// p₁² − 4 p₀ p₂ with the right sign.
 #[inline]
 fn discriminant(p0: f64, p1: f64, p2: f64) -> f64 {
-    // If the products are near each other, their difference is exact and that of their errors cannot
-    // outweigh it; if they are not, the errors do not matter.
+    let plain = p1 * p1 - 4.0 * p0 * p2;
+    if plain > 0.25 * (p1 * p1) {
+        return plain;
+    }
+    // The products are near each other: their difference is exact, and that of their errors decides.
     let (square, square_error) = two_product(p1, p1);
     let (product, product_error) = two_product(4.0 * p0, p2);
     (square - product) + (square_error - product_error)

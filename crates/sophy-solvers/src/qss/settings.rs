@@ -44,6 +44,6 @@ pub struct Settings {
 impl Settings {
     /// Usual settings for a run of `span` s.
     pub fn for_span(quanta: Vec<Quantum>, span: f64) -> Self {
-        Settings { quanta, trust: span / 100.0, window: span / 16.0, search_budget: 100_000 }
+        Settings { quanta, trust: span / 100.0, window: span / 16.0, search_budget: 20_000 }
     }
 }

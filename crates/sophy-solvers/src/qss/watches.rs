@@ -121,13 +121,13 @@ impl<const ORDER: usize> Qss<ORDER> {
         if due == Due::Search {
             return self.predict(e, watch, t);
         }
-        let mut c = self.difference(e, watch, t)?;
+        let c = self.difference(e, watch, t)?;
         let record = &mut self.watches[watch.position()];
         let sign = match (due, record.sign) {
             (Due::Root, Sign::Zero) | (Due::Joint, _) | (Due::Search, _) => Sign::after(&c),
             (Due::Root, sign) => {
+                // The difference is zero here, by what was located: the residue of rounding is taken off.
                 record.bias += c[0];
-                c[0] = 0.0;
                 sign.opposite()
             }
         };
