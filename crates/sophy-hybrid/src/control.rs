@@ -45,7 +45,10 @@ pub struct Control {
     zeno: Vec<Zeno>,
     /// Memory for resets.
     memory: Vec<f64>,
+    /// Watches that changed, transitions of a micro-step, and what they change; kept for their memory.
     changed: Vec<WatchIndex>,
+    chosen: Vec<TransitionIndex>,
+    changes: Changes,
     counts: Counts,
     most_steps: u32,
 }
@@ -60,6 +63,8 @@ impl Control {
             zeno: vec![Zeno::default(); automata],
             memory: equations.image.clone(),
             changed: Vec::new(),
+            chosen: Vec::new(),
+            changes: Changes::default(),
             counts: Counts::default(),
             most_steps: 10_000,
         }
@@ -103,16 +108,17 @@ impl Control {
         }
         loop {
             self.mark_stale(engine, logic);
-            let mut chosen = self.enabled(engine, logic);
-            if chosen.is_empty() && !self.deliver(engine, logic, &mut chosen) {
+            self.choose_enabled(engine, logic);
+            if self.chosen.is_empty() && !self.choose_by_event(engine, logic) {
                 break;
             }
-            if !chosen.is_empty() {
+            if !self.chosen.is_empty() {
                 journal.push(Record::Jump { time: t, step });
-                let changes = self.perform(engine, e, logic, t, &chosen);
-                engine.change(e, t, &changes, journal)?;
+                self.collect_changes(engine, e, logic, t);
+                engine.change(e, t, &self.changes, journal)?;
             }
-            for &transition in &chosen {
+            for k in 0..self.chosen.len() {
+                let transition = self.chosen[k];
                 let code = &logic.transitions[transition.position()];
                 taken.push(Taken { time: t, step, transition });
                 self.stale[code.automaton.position()] = true;
@@ -151,8 +157,8 @@ impl Control {
 
     /// Group 1: of each automaton the first transition whose guard holds; of these, those of the smallest
     /// priority number. Automata that wait for a more urgent one stay marked.
-    fn enabled(&mut self, engine: &dyn Engine, logic: &Logic) -> Vec<TransitionIndex> {
-        let mut chosen: Vec<TransitionIndex> = Vec::new();
+    fn choose_enabled(&mut self, engine: &dyn Engine, logic: &Logic) {
+        self.chosen.clear();
         let mut least = i32::MAX;
         for automaton in 0..self.stale.len() {
             if !self.stale[automaton] {
@@ -172,18 +178,17 @@ impl Control {
             };
             let priority = logic.transitions[transition.position()].priority;
             if priority < least {
-                chosen.clear();
+                self.chosen.clear();
                 least = priority;
             }
             if priority == least {
-                chosen.push(transition);
+                self.chosen.push(transition);
             }
         }
-        chosen
     }
 
     /// Group 2: every automaton takes one waiting event; `false` if none waits.
-    fn deliver(&mut self, engine: &dyn Engine, logic: &Logic, chosen: &mut Vec<TransitionIndex>) -> bool {
+    fn choose_by_event(&mut self, engine: &dyn Engine, logic: &Logic) -> bool {
         let mut any = false;
         for automaton in 0..self.queues.len() {
             let Some(event) = self.queues[automaton].pop_front() else { continue };
@@ -198,7 +203,7 @@ impl Control {
                 }
             });
             match waiting {
-                Some(transition) => chosen.push(transition),
+                Some(transition) => self.chosen.push(transition),
                 None => self.counts.unused_events += 1,
             }
         }
@@ -206,26 +211,18 @@ impl Control {
     }
 
     /// The changes of one micro-step, all right-hand sides read before it.
-    fn perform(
-        &mut self,
-        engine: &dyn Engine,
-        e: &Equations,
-        logic: &Logic,
-        t: f64,
-        chosen: &[TransitionIndex],
-    ) -> Changes {
-        let mut changes = Changes::default();
-        for &transition in chosen {
+    fn collect_changes(&mut self, engine: &dyn Engine, e: &Equations, logic: &Logic, t: f64) {
+        self.changes.clear();
+        for transition in &self.chosen {
             let code = &logic.transitions[transition.position()];
             for (state, formula) in &code.resets {
                 for &source in e.sources(&formula.sources) {
                     self.memory[e.layout.series_of(source)] = engine.value(source, t);
                 }
                 let [value, ..] = e.formula(formula, engine.locations(), &mut self.memory, 1);
-                changes.states.push((*state, value));
+                self.changes.states.push((*state, value));
             }
-            changes.locations.push((code.automaton, code.destination));
+            self.changes.locations.push((code.automaton, code.destination));
         }
-        changes
     }
 }

@@ -33,8 +33,10 @@ pub struct Qss<const ORDER: usize> {
     pub(super) dirty: Vec<WatchIndex>,
     /// Watches of guards whose sign changed, for the hybrid logic.
     pub(super) changed: Vec<WatchIndex>,
-    /// Entries to evaluate in a change; kept for its memory.
+    /// Entries to evaluate in a change, states that start afresh there, and their slopes; empty in between.
     entries: Vec<Entry>,
+    fresh: Vec<StateIndex>,
+    slopes: Vec<(usize, f64)>,
     pub(super) statistics: Statistics,
 }
 
@@ -61,6 +63,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             dirty: Vec::with_capacity(watches),
             changed: Vec::with_capacity(watches),
             entries: Vec::new(),
+            fresh: Vec::new(),
+            slopes: Vec::new(),
             statistics: Statistics::default(),
         }
     }
@@ -214,54 +218,57 @@ impl<const ORDER: usize> Qss<ORDER> {
         Ok(())
     }
 
-    /// Evaluates entries twice: once for values, so that quantised trajectories of `fresh` states start
-    /// with their slopes, then in full.
-    fn evaluate_afresh(
-        &mut self,
-        e: &Equations,
-        t: f64,
-        fresh: &[StateIndex],
-        journal: &mut Journal,
-    ) -> Result<(), Fault> {
+    /// Evaluates what a change concerns: the entries collected, and what fresh states influence. Twice, for
+    /// values first, so that the quantised trajectories of fresh states start with their slopes.
+    fn evaluate_afresh(&mut self, e: &Equations, t: f64, journal: &mut Journal) -> Result<(), Fault> {
         let mut entries = std::mem::take(&mut self.entries);
+        let mut fresh = std::mem::take(&mut self.fresh);
+        fresh.sort_unstable();
+        fresh.dedup();
         let entered = entries.len();
-        for &state in fresh {
+        for &state in &fresh {
+            self.synchronise(state.position(), t);
             for range in [&e.influence[state.position()], &e.own[state.position()]] {
-                let add = e.entries(range).iter().filter(|entry| {
+                for &entry in e.entries(range) {
                     // An automaton that was entered has all its rates evaluated already.
-                    let rates = !e.block(**entry, &self.locations).rows.is_empty();
-                    !(rates && entries[..entered].iter().any(|other| other.owner == entry.owner))
-                });
-                let add: Vec<Entry> = add.copied().collect();
-                entries.extend(add);
+                    let rates = !e.block(entry, &self.locations).rows.is_empty();
+                    if !(rates && entries[..entered].iter().any(|other| other.owner == entry.owner)) {
+                        entries.push(entry);
+                    }
+                }
             }
         }
         entries.sort_unstable();
         entries.dedup();
         if ORDER > 1 {
-            let mut slopes: Vec<(usize, f64)> = Vec::with_capacity(fresh.len());
-            for &entry in &entries {
-                let block = e.block(entry, &self.locations);
-                self.run_block(e, block, t, 1);
-                for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
-                    if fresh.contains(&row.state) {
-                        slopes.push((row.state.position(), e.result(row.result, &self.memory, 1)[0]));
-                    }
-                }
-            }
-            for (i, slope) in slopes {
-                self.records[i].q[1] = slope;
-            }
+            self.start_slopes(e, t, &entries, &fresh);
         }
         for &entry in &entries {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
         }
-        for &state in fresh {
+        for &state in &fresh {
             self.schedule(state.position(), t);
         }
         entries.clear();
-        self.entries = entries;
+        fresh.clear();
+        (self.entries, self.fresh) = (entries, fresh);
         Ok(())
+    }
+
+    /// q̇ of fresh states becomes their rate.
+    fn start_slopes(&mut self, e: &Equations, t: f64, entries: &[Entry], fresh: &[StateIndex]) {
+        for &entry in entries {
+            let block = e.block(entry, &self.locations);
+            self.run_block(e, block, t, 1);
+            for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
+                if fresh.binary_search(&row.state).is_ok() {
+                    self.slopes.push((row.state.position(), e.result(row.result, &self.memory, 1)[0]));
+                }
+            }
+        }
+        for (i, slope) in self.slopes.drain(..) {
+            self.records[i].q[1] = slope;
+        }
     }
 
     /// q of a state starts on x.
@@ -292,7 +299,7 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// Enters a location: arms its watches, disarms those left, and gives the states whose right-hand side is
     /// another one.
-    fn enter(&mut self, e: &Equations, automaton: usize, location: LocationIndex, fresh: &mut Vec<StateIndex>) {
+    fn enter(&mut self, e: &Equations, automaton: usize, location: LocationIndex) {
         let code = &e.automata[automaton];
         let (from, to) = (self.locations[automaton].position(), location.position());
         for &watch in &code.armed[to] {
@@ -303,7 +310,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         self.locations[automaton] = location;
         let changed = code.row_of[from].iter().zip(&code.row_of[to]).map(|(a, b)| a != b);
-        fresh.extend(code.states.iter().zip(changed).filter_map(|(&s, changed)| changed.then_some(s)));
+        self.fresh.extend(code.states.iter().zip(changed).filter_map(|(&s, changed)| changed.then_some(s)));
     }
 }
 
@@ -312,7 +319,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         let t = start.time;
         for (i, &value) in start.states.iter().enumerate() {
             self.set_state(StateIndex::new(i), value, t)?;
-            self.synchronise(i, t);
+            self.fresh.push(StateIndex::new(i));
         }
         for (input, &line) in start.inputs.iter().enumerate() {
             self.set_input(e, input, line, t);
@@ -328,8 +335,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         for range in &e.on_location {
             self.entries.extend_from_slice(e.entries(range));
         }
-        let all: Vec<StateIndex> = (0..start.states.len()).map(StateIndex::new).collect();
-        self.evaluate_afresh(e, t, &all, journal)?;
+        self.evaluate_afresh(e, t, journal)?;
         self.settle(e, t, journal)
     }
 
@@ -377,10 +383,9 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         changes: &Changes,
         journal: &mut Journal,
     ) -> Result<(), Fault> {
-        let mut fresh: Vec<StateIndex> = Vec::new();
         for &(state, value) in &changes.states {
             self.set_state(state, value, at)?;
-            fresh.push(state);
+            self.fresh.push(state);
             self.touch(e, SourceIndex(state.0));
         }
         for &(input, line) in &changes.inputs {
@@ -392,20 +397,15 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
             }
         }
         for &(automaton, location) in &changes.locations {
-            self.enter(e, automaton.position(), location, &mut fresh);
+            self.enter(e, automaton.position(), location);
             let range = &e.on_location[automaton.position()];
             self.entries.extend_from_slice(e.entries(range));
             if journal.wanted {
                 journal.push(sophy_field::Record::Location { time: at, automaton, location });
             }
         }
-        fresh.sort_unstable();
-        fresh.dedup();
-        for &state in &fresh {
-            self.synchronise(state.position(), at);
-        }
         self.guess_truths(e, at);
-        self.evaluate_afresh(e, at, &fresh, journal)?;
+        self.evaluate_afresh(e, at, journal)?;
         self.settle(e, at, journal)
     }
 
