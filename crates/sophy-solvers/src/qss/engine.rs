@@ -16,10 +16,10 @@ pub struct Qss<const ORDER: usize> {
     pub(super) settings: Settings,
     /// States, inputs, time.
     pub(super) records: Vec<Record>,
-    /// When the rate of a state must be evaluated again because it bends, s.
-    refresh: Vec<f64>,
-    /// Since when the rate of a state was evaluated only because it bends, s.
-    coasting: Vec<f64>,
+    /// How the rates bend.
+    bends: Vec<Bend>,
+    /// The state whose rate is being evaluated only because it bends; `usize::MAX` if none.
+    refreshed: usize,
     /// How often a state was scheduled at its own instant.
     repeats: Vec<u32>,
     pub(super) watches: Vec<WatchRecord>,
@@ -40,6 +40,23 @@ pub struct Qss<const ORDER: usize> {
     pub(super) statistics: Statistics,
 }
 
+/// What a rate does that its segment leaves out.
+#[derive(Clone, Copy, Debug)]
+struct Bend {
+    /// A quantum over the coefficient of what is left out: QSS2 leaves out ∫½f̈s² = ½f̈·s³/3, QSS1
+    /// ∫ḟs = ḟ·s²/2. Infinite where nothing is left out.
+    room: f64,
+    /// Whether the rate bends at all; then it is trusted for a bounded time even if its room is infinite.
+    bends: bool,
+    /// Since when the rate was evaluated only because it bends, s.
+    coasting: f64,
+    /// Whether the agenda's time is that of evaluating the rate again, not the edge of the band.
+    due: bool,
+}
+
+const STRAIGHT: Bend =
+    Bend { room: f64::INFINITY, bends: false, coasting: f64::NEG_INFINITY, due: false };
+
 /// How often a slot may be scheduled at its own instant.
 pub(super) const MOST_REPEATS: u32 = 100;
 
@@ -52,8 +69,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         Qss {
             settings,
             records: vec![Record::line(0.0, 0.0, 0.0); sources],
-            refresh: vec![f64::INFINITY; states],
-            coasting: vec![0.0; states],
+            bends: vec![STRAIGHT; states],
+            refreshed: usize::MAX,
             repeats: vec![0; states],
             watches: vec![WatchRecord::default(); watches],
             locations: vec![LocationIndex(0); equations.automata.len()],
@@ -94,7 +111,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &entry in e.entries(&e.influence[i]) {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
         }
-        self.schedule(i, t);
+        if self.records[i].tx != t {
+            self.schedule(i, t);
+        }
         Ok(())
     }
 
@@ -152,11 +171,18 @@ impl<const ORDER: usize> Qss<ORDER> {
         record.x = [record.x_at(t), f, if ORDER > 1 { 0.5 * f1 } else { 0.0 }];
         record.tx = t;
         self.statistics.rates += 1;
-        // A rate evaluated at its own refresh coasts on; anything else ends the coasting.
-        if self.refresh[i] > t {
-            self.coasting[i] = t;
+        if row.bends {
+            let bend = &mut self.bends[i];
+            bend.bends = true;
+            // Evaluated only because it bends it coasts on; anything else ends the coasting.
+            if self.refreshed != i {
+                bend.coasting = t;
+            }
+            let left_out = if ORDER > 1 { f2.abs() / 3.0 } else { f1.abs() / 2.0 };
+            bend.room = self.records[i].quantum / left_out;
+        } else {
+            self.bends[i] = STRAIGHT;
         }
-        self.refresh[i] = if row.bends { t + self.trusted_for(i, t, f1, f2) } else { f64::INFINITY };
         if journal.wanted {
             let coefficients = self.records[i].x;
             journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients });
@@ -168,31 +194,40 @@ impl<const ORDER: usize> Qss<ORDER> {
         Ok(())
     }
 
-    /// How long until the part of the rate that x leaves out has moved it by a quantum: QSS2 leaves out
-    /// ∫½f̈s² = ½f̈·s³/3, QSS1 ∫ḟs = ḟ·s²/2.
+    /// ta: when a state next needs attention (algorithm 3.1, eq. 3.6), or its rate because it bends.
+    #[inline]
+    fn schedule(&mut self, i: usize, t: f64) {
+        let mut next = t + self.records[i].band_delay(t);
+        let bend = self.bends[i];
+        if bend.bends {
+            let evaluated = self.records[i].tx;
+            let trusted = evaluated + self.trusted_for(bend, evaluated, next - evaluated);
+            self.bends[i].due = trusted < next;
+            next = next.min(trusted);
+        }
+        self.agenda.set(i as u32, next);
+    }
+
+    /// How long a rate evaluated at `t` may be trusted, exactly if that is less than `enough`: until what its
+    /// segment leaves out has moved x by a quantum.
     ///
     /// A rate that coasts for τ, evaluated again and again without any change of a quantised variable, is
     /// allowed only s/τ of a quantum per evaluation, so that what adds up stays of the order of the quantum
     /// and the error converges with it at first order, as that of the method does.
     #[inline]
-    fn trusted_for(&self, i: usize, t: f64, f1: f64, f2: f64) -> f64 {
-        let (quantum, coasted) = (self.records[i].quantum, t - self.coasting[i]);
+    fn trusted_for(&self, bend: Bend, t: f64, enough: f64) -> f64 {
+        let Bend { room, coasting, .. } = bend;
+        let (coasted, trust) = (t - coasting, self.settings.trust);
         let (alone, shared) = if ORDER > 1 {
-            let moved = 3.0 * quantum / f2.abs();
-            (libm::cbrt(moved), (moved / coasted).sqrt())
+            // Roots cost more than the question whether they matter.
+            if room >= enough * enough * enough && room >= enough * enough * coasted {
+                return trust;
+            }
+            (libm::cbrt(room), (room / coasted).sqrt())
         } else {
-            let moved = 2.0 * quantum / f1.abs();
-            (moved.sqrt(), moved / coasted)
+            (room.sqrt(), room / coasted)
         };
-        alone.min(shared).min(self.settings.trust)
-    }
-
-    /// ta: when a state next needs attention (algorithm 3.1, eq. 3.6).
-    #[inline]
-    fn schedule(&mut self, i: usize, t: f64) {
-        let band = t + self.records[i].band_delay(t);
-        let refresh = self.refresh[i];
-        self.agenda.set(i as u32, if refresh < band { refresh } else { band });
+        alone.min(shared).min(trust)
     }
 
     /// Has a watch looked at before time goes on.
@@ -208,13 +243,15 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// A state whose time has come: the edge of its band, or only a rate that bends.
     #[inline]
     fn state_due(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Fault> {
-        if self.refresh[i] > t || self.records[i].band_delay(t) <= 0.0 {
+        if !self.bends[i].due {
             return self.step(e, i, t, journal);
         }
         self.statistics.refreshes += 1;
+        self.refreshed = i;
         for &entry in e.entries(&e.own[i]) {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
         }
+        self.refreshed = usize::MAX;
         Ok(())
     }
 
