@@ -2,8 +2,8 @@ use crate::declarations::{Declarations, Spanned, TransitionDeclaration, Variable
 use crate::lower::{LoweredEquation, LoweredLocation, LoweredTransition};
 use crate::names::{Kind, Names};
 use sophy_ir::{
-    Component, ComponentIndex, Equation, Graph, Leaf, Location, Model, Node, NodeId, Reset, Transition, Trigger,
-    Variable, VariableId, VariableKind,
+    Component, ComponentIndex, Equation, Graph, Leaf, Location, Model, Node, NodeId, Reset, Transition,
+    Trigger, Variable, VariableId, VariableKind,
 };
 use std::collections::HashMap;
 

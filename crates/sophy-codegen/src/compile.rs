@@ -69,9 +69,7 @@ pub fn compile(system: &System, knobs: &Parameters, order: u32) -> Result<Compil
         .chain([Leaf::Time])
         .collect();
     let influence = source_leaves.iter().map(|leaf| gather.influence(|row| row.contains(leaf))).collect();
-    let own = (0..system.states.len())
-        .map(|s| gather.all_of(|state| state.position() == s))
-        .collect();
+    let own = (0..system.states.len()).map(|s| gather.all_of(|state| state.position() == s)).collect();
     let on_location = (0..system.automata.len()).map(|a| location_entries(&mut gather, a)).collect();
     let on_watch = (0..system.watches.len())
         .map(|w| {
@@ -124,7 +122,9 @@ fn parameter_values(system: &System, knobs: &Parameters) -> Result<Vec<f64>, Com
     for (position, parameter) in system.parameters.iter().enumerate() {
         let value = match knobs.get(&ParameterIndex::new(position)) {
             Some(&knob) => knob,
-            None => evaluate(&system.graph, parameter.value, &mut |leaf| parameter_leaf(leaf, &values)).real(),
+            None => {
+                evaluate(&system.graph, parameter.value, &mut |leaf| parameter_leaf(leaf, &values)).real()
+            }
         };
         if !value.is_finite() {
             return Err(CompileError::Parameter { name: parameter.name.clone(), value });
@@ -206,8 +206,7 @@ fn decided_leaves(system: &System, watch: WatchIndex) -> BTreeSet<Leaf> {
 
 /// The signs of `left − right` for which a comparison holds.
 pub(crate) fn signs_of(comparison: Comparison) -> u8 {
-    let (minus, zero, plus) =
-        (sign_bit(Sign::Negative), sign_bit(Sign::Zero), sign_bit(Sign::Positive));
+    let (minus, zero, plus) = (sign_bit(Sign::Negative), sign_bit(Sign::Zero), sign_bit(Sign::Positive));
     match comparison {
         Comparison::Less => minus,
         Comparison::LessEqual => minus | zero,
@@ -235,11 +234,9 @@ fn watch(gather: &mut Gather<'_>, index: WatchIndex) -> WatchCode {
         .map(WatchIndex::new)
         .collect();
     let guard = system.transitions.iter().any(|t| {
-        let node = match &t.trigger {
-            sophy_ir::FlatTrigger::When(guard) => Some(*guard),
-            sophy_ir::FlatTrigger::On { guard, .. } => *guard,
-        };
-        node.is_some_and(|node| system.graph.dependencies([node]).iter().any(|leaf| decided.contains(leaf)))
+        t.trigger
+            .guard()
+            .is_some_and(|node| system.graph.dependencies([node]).iter().any(|leaf| decided.contains(leaf)))
     });
     WatchCode {
         truths: truths.map(|(i, t)| (i as u32, signs_of(t.comparison))).collect(),
@@ -289,12 +286,8 @@ fn armed_in(gather: &Gather<'_>, automaton: usize, location: usize) -> Vec<Watch
         .chain(system.algebraics.iter().map(|z| &z.value))
         .filter(|row| row.owner.position() == automaton)
         .map(|row| row.by_location[location]);
-    let guards = system.automata[automaton].locations[location].transitions.iter().filter_map(|t| {
-        match &system.transitions[t.position()].trigger {
-            sophy_ir::FlatTrigger::When(guard) => Some(*guard),
-            sophy_ir::FlatTrigger::On { guard, .. } => *guard,
-        }
-    });
+    let outgoing = system.automata[automaton].locations[location].transitions.iter();
+    let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
     gather.watches_below(rows.chain(guards)).into_iter().collect()
 }
 

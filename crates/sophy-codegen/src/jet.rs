@@ -167,8 +167,8 @@ pub(crate) fn sine_cosine<T: Scalar, const N: usize>(
 pub(crate) fn tangent<T: Scalar, const N: usize>(a: Jet<T, N>, hyperbolic: bool) -> Jet<T, N> {
     let (mut t, mut w): (Jet<T, N>, Jet<T, N>) = (zeros(), zeros());
     t[0] = if hyperbolic { a[0].tanh() } else { a[0].tan() };
-    let slope = |square: T| if hyperbolic { T::of(1.0) - square } else { T::of(1.0) + square };
-    w[0] = slope(t[0].square());
+    let square = t[0].square();
+    w[0] = if hyperbolic { T::of(1.0) - square } else { T::of(1.0) + square };
     for k in 1..N {
         let mut sum = T::of(0.0);
         for i in 1..=k {

@@ -23,16 +23,8 @@ pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Log
     };
     let mut readers: Vec<Vec<AutomatonIndex>> = vec![Vec::new(); system.watches.len()];
     for transition in &system.transitions {
-        let (node, trigger): (Option<NodeId>, fn(Guard, &FlatTrigger) -> TriggerCode) =
-            match &transition.trigger {
-                FlatTrigger::When(guard) => (Some(*guard), |guard, _| TriggerCode::When(guard)),
-                FlatTrigger::On { guard, .. } => (*guard, |guard, trigger| match trigger {
-                    FlatTrigger::On { events, .. } => TriggerCode::On(events.clone(), guard),
-                    FlatTrigger::When(_) => TriggerCode::When(guard),
-                }),
-            };
         let mut guard = Guard::default();
-        match node {
+        match transition.trigger.guard() {
             Some(node) => guard_steps(system, node, parameters, &mut guard.steps),
             None => guard.steps.push(GuardStep::Constant(true)),
         }
@@ -45,13 +37,17 @@ pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Log
                 automata.push(transition.automaton);
             }
         }
+        let trigger = match &transition.trigger {
+            FlatTrigger::When(_) => TriggerCode::When(guard),
+            FlatTrigger::On { events, .. } => TriggerCode::On(events.clone(), guard),
+        };
         let resets =
             transition.resets.iter().map(|reset| (reset.state, gather.formula(reset.value, true))).collect();
         logic.transitions.push(TransitionCode {
             automaton: transition.automaton,
             source: transition.source,
             destination: transition.destination,
-            trigger: trigger(guard, &transition.trigger),
+            trigger,
             resets,
             emits: transition.emits.iter().flat_map(|(_, receivers)| receivers.iter().copied()).collect(),
             priority: transition.priority,
@@ -106,4 +102,3 @@ fn pair(
     guard_steps(system, b, parameters, steps);
     steps.push(join);
 }
-

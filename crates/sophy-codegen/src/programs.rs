@@ -167,7 +167,11 @@ impl<'a> Compiler<'a> {
             }
             Node::IntegerPower(a, n) => {
                 let a = self.jet(a);
-                if n == 2 { self.emit(Code::Square, a, 0) } else { self.emit(Code::IntegerPower, a, n as u32) }
+                if n == 2 {
+                    self.emit(Code::Square, a, 0)
+                } else {
+                    self.emit(Code::IntegerPower, a, n as u32)
+                }
             }
             Node::Binary(function, a, b) => self.binary(function, a, b),
             Node::Compare(comparison, a, b) => self.compare(comparison, a, b),

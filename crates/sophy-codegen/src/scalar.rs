@@ -3,12 +3,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What a jet's coefficients are made of: numbers, or enclosures of numbers.
 pub(crate) trait Scalar:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     fn of(value: f64) -> Self;
     fn square(self) -> Self;

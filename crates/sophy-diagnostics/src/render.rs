@@ -58,10 +58,9 @@ mod tests {
     fn a_message_shows_place_excerpt_and_way_out() {
         let mut sources = Sources::default();
         let id = sources.add("battery.xml", "<domain>C > HFul</domain>");
-        let diagnostic =
-            Diagnostic::error(Code("HS0101"), Span::new(id, 12..16), "`HFul` is not declared")
-                .label(Span::new(id, 8..9), "compared with this")
-                .help("did you mean `HFull`?");
+        let diagnostic = Diagnostic::error(Code("HS0101"), Span::new(id, 12..16), "`HFul` is not declared")
+            .label(Span::new(id, 8..9), "compared with this")
+            .help("did you mean `HFull`?");
         let text = render(&diagnostic, &sources, Style::Plain);
         assert!(text.contains("error[HS0101]: `HFul` is not declared"), "{text}");
         assert!(text.contains("battery.xml:1:13"), "{text}");

@@ -85,8 +85,7 @@ impl TextMap {
         let Some(piece) = self.pieces.iter().find(inside) else {
             return self.pieces.last().map_or(self.anchor, |piece| piece.source.end);
         };
-        let one_to_one =
-            piece.source.end - piece.source.start == piece.decoded.end - piece.decoded.start;
+        let one_to_one = piece.source.end - piece.source.start == piece.decoded.end - piece.decoded.start;
         match (one_to_one, as_end) {
             (true, _) => piece.source.start + (offset - piece.decoded.start),
             (false, true) => piece.source.end,

@@ -13,7 +13,8 @@ pub trait Engine: Debug + Send {
     ///
     /// # Errors
     /// [`Fault`] if a rate is not finite or a watch cannot be decided.
-    fn start(&mut self, equations: &Equations, start: &Start<'_>, journal: &mut Journal) -> Result<(), Fault>;
+    fn start(&mut self, equations: &Equations, start: &Start<'_>, journal: &mut Journal)
+    -> Result<(), Fault>;
 
     /// Advances until something happens: at the latest to `until` (s, inclusive), or for `budget` steps.
     ///

@@ -1,6 +1,4 @@
-use crate::{
-    AutomatonIndex, Enclose, LocationIndex, Operand, Program, Run, StateIndex, WatchIndex,
-};
+use crate::{AutomatonIndex, Enclose, LocationIndex, Operand, Program, Run, StateIndex, WatchIndex};
 use sophy_segment::Interval;
 use std::ops::Range;
 
@@ -234,9 +232,13 @@ impl Equations {
         let zero = Interval::point(0.0);
         match formula.result {
             Operand::Scalar(offset) => [memory[offset as usize], zero, zero],
-            Operand::Jet(offset) => std::array::from_fn(|k| {
-                if k < orders { memory[offset as usize + k] } else { Interval::ENTIRE }
-            }),
+            Operand::Jet(offset) => {
+                std::array::from_fn(
+                    |k| {
+                        if k < orders { memory[offset as usize + k] } else { Interval::ENTIRE }
+                    },
+                )
+            }
         }
     }
 

@@ -17,13 +17,12 @@ mod program;
 pub use agenda::Agenda;
 pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
 pub use equations::{
-    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, Selected, SourceIndex,
-    WatchCode,
+    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, Selected, SourceIndex, WatchCode,
 };
 pub use index::{
     AlgebraicIndex, AutomatonIndex, EventIndex, InputIndex, LocationIndex, OutputIndex, ParameterIndex,
     StairIndex, StateIndex, TransitionIndex, TruthIndex, WatchIndex,
 };
 pub use journal::{Journal, Record};
-pub use logic::{sign_bit, Guard, GuardStep, Logic, TransitionCode, TriggerCode};
+pub use logic::{Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
 pub use program::{Code, Enclose, Instruction, Operand, Program, Run};

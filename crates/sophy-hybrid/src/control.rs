@@ -2,8 +2,7 @@ use crate::error::HybridError;
 use crate::livelock::Livelock;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
-    Changes, Engine, Equations, EventIndex, Journal, Logic, Record, TransitionIndex,
-    TriggerCode, WatchIndex,
+    Changes, Engine, Equations, EventIndex, Journal, Logic, Record, TransitionIndex, TriggerCode, WatchIndex,
 };
 use std::collections::VecDeque;
 
@@ -194,13 +193,14 @@ impl Control {
             let Some(event) = self.queues[automaton].pop_front() else { continue };
             any = true;
             let location = engine.locations()[automaton].position();
-            let waiting = logic.outgoing[automaton][location].iter().copied().find(|transition| {
-                match &logic.transitions[transition.position()].trigger {
-                    TriggerCode::On(events, guard) => {
-                        events.contains(&event) && guard.holds(|watch| engine.sign(watch))
-                    }
-                    TriggerCode::When(_) => false,
+            let waiting = logic.outgoing[automaton][location].iter().copied().find(|transition| match &logic
+                .transitions[transition.position()]
+            .trigger
+            {
+                TriggerCode::On(events, guard) => {
+                    events.contains(&event) && guard.holds(|watch| engine.sign(watch))
                 }
+                TriggerCode::When(_) => false,
             });
             match waiting {
                 Some(transition) => self.chosen.push(transition),

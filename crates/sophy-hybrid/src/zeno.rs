@@ -53,8 +53,8 @@ impl Zeno {
         let n = self.history.len();
         (1..=LONGEST_CYCLE).filter(|cycle| n > (ROUNDS + 1) * cycle).find_map(|cycle| {
             let back = |rounds: usize| self.history[n - 1 - rounds * cycle];
-            let same = (0..ROUNDS * cycle)
-                .all(|k| self.history[n - 1 - k].1 == self.history[n - 1 - k - cycle].1);
+            let same =
+                (0..ROUNDS * cycle).all(|k| self.history[n - 1 - k].1 == self.history[n - 1 - k - cycle].1);
             if !same {
                 return None;
             }
@@ -98,9 +98,8 @@ mod tests {
     fn a_bouncing_ball_accumulates() {
         let mut zeno = Zeno::default();
         let (limit, first) = (4.5, 4.0);
-        let found = (0..400).find_map(|k| {
-            zeno.taken(limit - first * sophy_powi(0.8, k), TransitionIndex(0)).map(|a| (k, a))
-        });
+        let found = (0..400)
+            .find_map(|k| zeno.taken(limit - first * sophy_powi(0.8, k), TransitionIndex(0)).map(|a| (k, a)));
         let (k, accumulation) = found.expect("recognised");
         assert!(k > 50, "only near the limit");
         assert!((accumulation.limit - limit).abs() < 1e-11);

@@ -8,19 +8,53 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[allow(missing_docs)] // the names are those of the language
 pub enum Unary {
-    Negate, Sin, Cos, Tan, Asin, Acos, Atan, Sinh, Cosh, Tanh, Asinh, Acosh, Atanh,
-    Exp, Ln, Log10, Sqrt, Abs, Sign, Floor,
+    Negate,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    Exp,
+    Ln,
+    Log10,
+    Sqrt,
+    Abs,
+    Sign,
+    Floor,
 }
 
 /// A function of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[allow(missing_docs)]
-pub enum Binary { Add, Subtract, Multiply, Divide, Power, Min, Max, Atan2 }
+pub enum Binary {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Min,
+    Max,
+    Atan2,
+}
 
 /// A comparison of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[allow(missing_docs)]
-pub enum Comparison { Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual }
+pub enum Comparison {
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+}
 
 impl Unary {
     /// The name in the language; `-` for [`Unary::Negate`].
@@ -101,8 +135,20 @@ impl Binary {
             Binary::Multiply => a * b,
             Binary::Divide => a / b,
             Binary::Power => libm::pow(a, b),
-            Binary::Min => if a < b { a } else { b },
-            Binary::Max => if a < b { b } else { a },
+            Binary::Min => {
+                if a < b {
+                    a
+                } else {
+                    b
+                }
+            }
+            Binary::Max => {
+                if a < b {
+                    b
+                } else {
+                    a
+                }
+            }
             Binary::Atan2 => libm::atan2(a, b),
         }
     }

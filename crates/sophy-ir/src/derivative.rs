@@ -184,7 +184,11 @@ impl Graph {
             Binary::Min | Binary::Max => {
                 let condition = self.compare(Comparison::Less, a, b);
                 let (x, y) = (da.unwrap_or(zero), db.unwrap_or(zero));
-                if function == Binary::Min { self.select(condition, x, y) } else { self.select(condition, y, x) }
+                if function == Binary::Min {
+                    self.select(condition, x, y)
+                } else {
+                    self.select(condition, y, x)
+                }
             }
             // atan2(a, b)′ = (b·a′ − a·b′)/(a² + b²)
             Binary::Atan2 => {
@@ -228,14 +232,18 @@ mod tests {
         let h = 1e-5;
         let difference = (value(&graph, f, at + h) - value(&graph, f, at - h)) / (2.0 * h);
         let exact = graph.derivative(f, leaf).map_or(0.0, |d| value(&graph, d, at));
-        assert!((exact - difference).abs() < 1e-7 * (1.0 + exact.abs()), "{exact} against {difference} at {at}");
+        assert!(
+            (exact - difference).abs() < 1e-7 * (1.0 + exact.abs()),
+            "{exact} against {difference} at {at}"
+        );
     }
 
     #[test]
     fn derivatives_agree_with_difference_quotients() {
         use Unary::*;
         for function in [
-            Negate, Sin, Cos, Tan, Asin, Acos, Atan, Sinh, Cosh, Tanh, Asinh, Atanh, Exp, Ln, Log10, Sqrt, Abs,
+            Negate, Sin, Cos, Tan, Asin, Acos, Atan, Sinh, Cosh, Tanh, Asinh, Atanh, Exp, Ln, Log10, Sqrt,
+            Abs,
         ] {
             for at in [0.3, 0.7] {
                 check(|g, x| g.unary(function, x), at);

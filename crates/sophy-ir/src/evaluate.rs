@@ -43,9 +43,7 @@ pub fn evaluate(graph: &Graph, root: NodeId, leaf: &mut impl FnMut(Leaf) -> Valu
             Node::Unary(function, a) => Value::Real(function.apply(get(a).real())),
             Node::Binary(function, a, b) => Value::Real(function.apply(get(a).real(), get(b).real())),
             Node::IntegerPower(a, n) => Value::Real(crate::arithmetic::integer_power(get(a).real(), n)),
-            Node::Compare(comparison, a, b) => {
-                Value::Boolean(comparison.holds(get(a).real(), get(b).real()))
-            }
+            Node::Compare(comparison, a, b) => Value::Boolean(comparison.holds(get(a).real(), get(b).real())),
             Node::Not(a) => Value::Boolean(!get(a).boolean()),
             Node::And(a, b) => Value::Boolean(get(a).boolean() && get(b).boolean()),
             Node::Or(a, b) => Value::Boolean(get(a).boolean() || get(b).boolean()),

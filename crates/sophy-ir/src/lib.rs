@@ -17,6 +17,7 @@ mod display;
 mod evaluate;
 mod graph;
 mod model;
+mod model_text;
 mod system;
 
 pub use affine::Affine;

@@ -2,7 +2,8 @@ use crate::arithmetic::Comparison;
 use crate::graph::{Graph, Leaf, Node, NodeId};
 use sophy_diagnostics::Span;
 use sophy_field::{
-    AutomatonIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex, TruthIndex, WatchIndex,
+    AutomatonIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex,
+    TruthIndex, WatchIndex,
 };
 use std::fmt;
 
@@ -148,6 +149,16 @@ pub enum FlatTrigger {
     },
 }
 
+impl FlatTrigger {
+    /// The condition, if there is one.
+    pub fn guard(&self) -> Option<NodeId> {
+        match self {
+            FlatTrigger::When(guard) => Some(*guard),
+            FlatTrigger::On { guard, .. } => *guard,
+        }
+    }
+}
+
 /// A transition.
 #[derive(Clone, Debug)]
 pub struct FlatTransition {
@@ -211,8 +222,6 @@ pub struct Watch {
     pub difference: NodeId,
     /// Whether the difference is affine in states, inputs and time: its crossings have a closed form.
     pub affine: bool,
-    /// Where the comparison stands.
-    pub span: Option<Span>,
 }
 
 /// What the sign of a watch says to a guard or a switch.
@@ -300,7 +309,8 @@ impl System {
     pub fn row_sources(&self, row: &Row) -> Vec<Leaf> {
         let mut found = std::collections::BTreeSet::new();
         let mut visited = std::collections::BTreeSet::new();
-        let mut pending: Vec<Leaf> = self.graph.dependencies(row.by_location.iter().copied()).into_iter().collect();
+        let mut pending: Vec<Leaf> =
+            self.graph.dependencies(row.by_location.iter().copied()).into_iter().collect();
         while let Some(leaf) = pending.pop() {
             if !visited.insert(leaf) {
                 continue;

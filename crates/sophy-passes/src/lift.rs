@@ -3,9 +3,7 @@
 //! read is smooth between crossings. Equal arguments share one watch.
 
 use sophy_field::{StairIndex, WatchIndex};
-use sophy_ir::{
-    Binary, Comparison, FlatTrigger, Leaf, Node, NodeId, Row, Stair, System, Unary, Watch,
-};
+use sophy_ir::{Binary, Comparison, FlatTrigger, Leaf, Node, NodeId, Row, Stair, System, Unary, Watch};
 use std::collections::HashMap;
 
 /// Lifts the kinks of rates, algebraic variables and guards. Outputs and resets keep theirs: they are read
@@ -144,7 +142,7 @@ impl Lifter<'_> {
         let (left, right) = if mirrored { (b, a) } else { (a, b) };
         let difference = self.difference(left, right);
         let watch = WatchIndex::new(self.system.watches.len());
-        self.system.watches.push(Watch { left, right, difference, affine: form.is_some(), span: None });
+        self.system.watches.push(Watch { left, right, difference, affine: form.is_some() });
         self.watches.insert(key, watch);
         (watch, mirrored)
     }
@@ -200,7 +198,7 @@ impl Lifter<'_> {
     fn fresh_watch(&mut self, left: NodeId, right: NodeId) -> WatchIndex {
         let difference = self.system.graph.subtract(left, right);
         let affine = self.form(difference).is_some();
-        self.system.watches.push(Watch { left, right, difference, affine, span: None });
+        self.system.watches.push(Watch { left, right, difference, affine });
         WatchIndex::new(self.system.watches.len() - 1)
     }
 }

@@ -36,7 +36,8 @@ impl Table {
 
     /// The values of a real column by its name.
     pub fn real(&self, name: &str) -> Option<&[f64]> {
-        let position = self.schema.columns.iter().position(|c| c.name == name && c.kind == ColumnKind::Real)?;
+        let position =
+            self.schema.columns.iter().position(|c| c.name == name && c.kind == ColumnKind::Real)?;
         self.reals.get(position).map(Vec::as_slice)
     }
 

@@ -19,7 +19,10 @@ pub(crate) struct Configured {
 }
 
 /// Resolves everything but initial values, which need the values of parameters.
-pub(crate) fn configure(system: &System, experiment: &Experiment) -> Result<Configured, Vec<ExperimentError>> {
+pub(crate) fn configure(
+    system: &System,
+    experiment: &Experiment,
+) -> Result<Configured, Vec<ExperimentError>> {
     let mut errors = Vec::new();
     let mut collect = |result: Result<(), ExperimentError>| errors.extend(result.err());
     collect(times(experiment));
@@ -29,7 +32,9 @@ pub(crate) fn configure(system: &System, experiment: &Experiment) -> Result<Conf
             Some(index) => {
                 knobs.insert(index, *value);
             }
-            None => collect(Err(unknown("knobs", "parameter", name, &names(&system.parameters, |p| &p.name)))),
+            None => {
+                collect(Err(unknown("knobs", "parameter", name, &names(&system.parameters, |p| &p.name))))
+            }
         }
     }
     let mut locations: Vec<LocationIndex> = system.automata.iter().map(|a| a.initial).collect();
@@ -82,12 +87,18 @@ pub(crate) fn configure(system: &System, experiment: &Experiment) -> Result<Conf
 fn times(experiment: &Experiment) -> Result<(), ExperimentError> {
     let Experiment { start, stop, tolerance, every, .. } = *experiment;
     if !start.is_finite() || !stop.is_finite() || stop < start {
-        return Err(ExperimentError::new("run.stop", format!("the run cannot go from {start} s to {stop} s"))
-            .help("give a stop time after the start, such as `--stop 20`"));
+        return Err(ExperimentError::new(
+            "run.stop",
+            format!("the run cannot go from {start} s to {stop} s"),
+        )
+        .help("give a stop time after the start, such as `--stop 20`"));
     }
     if !(tolerance > 0.0 && tolerance < 1.0) {
-        return Err(ExperimentError::new("engine.tolerance", format!("the tolerance {tolerance} is not in (0, 1)"))
-            .help("1e-3 is coarse, 1e-6 fine"));
+        return Err(ExperimentError::new(
+            "engine.tolerance",
+            format!("the tolerance {tolerance} is not in (0, 1)"),
+        )
+        .help("1e-3 is coarse, 1e-6 fine"));
     }
     if every.is_some_and(|step| !(step > 0.0 && step.is_finite())) {
         return Err(ExperimentError::new("record.every", "the recording step must be positive")
@@ -117,7 +128,12 @@ fn initial_location(
     locations: &mut [LocationIndex],
 ) -> Result<(), ExperimentError> {
     let Some(position) = system.automata.iter().position(|a| a.name == component) else {
-        return Err(unknown("initial_location", "component", component, &names(&system.automata, |a| &a.name)));
+        return Err(unknown(
+            "initial_location",
+            "component",
+            component,
+            &names(&system.automata, |a| &a.name),
+        ));
     };
     let automaton = &system.automata[position];
     match automaton.locations.iter().position(|l| l.name == location) {
@@ -212,8 +228,7 @@ pub(crate) fn initial_states(
 
 /// `name` is not one of `known`.
 pub(crate) fn unknown(item: &str, kind: &str, name: &str, known: &[&str]) -> ExperimentError {
-    let error =
-        ExperimentError::new(format!("{item}.{name}"), format!("the model has no {kind} `{name}`"));
+    let error = ExperimentError::new(format!("{item}.{name}"), format!("the model has no {kind} `{name}`"));
     match closest(name, known.iter().copied()) {
         Some(meant) => error.help(format!("did you mean `{meant}`?")),
         None if known.is_empty() => error.help(format!("the model has no {kind}s at all")),

@@ -78,6 +78,7 @@ impl Reporter<'_> {
                     time,
                     format!("`{text}` of a condition is {value} at t = {time} s"),
                 );
+                failure.span = self.watch_span(watch);
                 failure.notes.push(self.values(self.watch_sources(watch), time));
                 failure
             }
@@ -88,10 +89,12 @@ impl Reporter<'_> {
                     time,
                     format!("it cannot be decided whether `{text}` crosses zero at t = {time} s"),
                 );
+                failure.span = self.watch_span(watch);
                 failure.notes.push("the quantity is zero to rounding over an interval of time".to_owned());
                 failure.notes.push(self.values(self.watch_sources(watch), time));
                 failure.helps.push(
-                    "write the condition with a margin (`> 1e-9` instead of `> 0`), or simplify it".to_owned(),
+                    "write the condition with a margin (`> 1e-9` instead of `> 0`), or simplify it"
+                        .to_owned(),
                 );
                 failure
             }
@@ -102,6 +105,7 @@ impl Reporter<'_> {
                     time,
                     format!("the resolution of time is exhausted by state `{name}` at t = {time} s"),
                 );
+                failure.span = self.rate_span(state);
                 failure.notes.push(self.equation(state));
                 failure.notes.push(self.values(self.rate_sources(state), time));
                 failure.helps.push(format!("give `{name}` a larger quantum"));
@@ -114,13 +118,15 @@ impl Reporter<'_> {
                     time,
                     format!("`{text}` changes its sign again and again at t = {time} s"),
                 );
+                failure.span = self.watch_span(watch);
                 failure.notes.push(
                     "on both sides of the surface the motion points at it: sliding motion, which this \
                      version does not continue"
                         .to_owned(),
                 );
                 failure.helps.push(
-                    "give the switch a hysteresis, or smooth it (a steep `tanh` instead of `sign`)".to_owned(),
+                    "give the switch a hysteresis, or smooth it (a steep `tanh` instead of `sign`)"
+                        .to_owned(),
                 );
                 failure
             }
@@ -192,6 +198,31 @@ impl Reporter<'_> {
 
     fn watch_text(&self, watch: WatchIndex) -> String {
         self.system.text(self.system.watches[watch.position()].difference)
+    }
+
+    /// The transition whose guard reads the watch in the present location, else the rate that does.
+    fn watch_span(&self, watch: WatchIndex) -> Option<Span> {
+        let reads = |node: sophy_ir::NodeId| {
+            self.system.graph.dependencies([node]).into_iter().any(|leaf| match leaf {
+                Leaf::Truth(i) => self.system.truths[i.position()].watch == watch,
+                Leaf::Stair(i) => {
+                    let stair = self.system.stairs[i.position()];
+                    stair.lower == watch || stair.upper == watch
+                }
+                _ => false,
+            })
+        };
+        let transition = self.system.transitions.iter().find(|t| {
+            self.engine.locations()[t.automaton.position()] == t.source
+                && t.trigger.guard().is_some_and(reads)
+        });
+        let rate = || {
+            let states = (0..self.system.states.len()).map(StateIndex::new);
+            let mut reading =
+                states.filter(|&s| reads(self.system.states[s.position()].rate.at(self.location_of(s))));
+            reading.next().and_then(|s| self.rate_span(s))
+        };
+        transition.and_then(|t| t.span).or_else(rate)
     }
 
     fn watch_sources(&self, watch: WatchIndex) -> Vec<Leaf> {

@@ -94,12 +94,18 @@ pub(crate) fn check(name: &str, signal: &Signal, start: f64, stop: f64) -> Resul
         return Err(ExperimentError::new(item, format!("input `{name}` has no samples ({})", signal.origin)));
     };
     if let Some(bad) = signal.values.iter().chain(&signal.times[1..]).find(|value| !value.is_finite()) {
-        return Err(ExperimentError::new(item, format!("input `{name}` has a sample {bad} ({})", signal.origin)));
+        return Err(ExperimentError::new(
+            item,
+            format!("input `{name}` has a sample {bad} ({})", signal.origin),
+        ));
     }
     if first > start {
         return Err(ExperimentError::new(
             item,
-            format!("input `{name}` begins at {first} s, after the run's start at {start} s ({})", signal.origin),
+            format!(
+                "input `{name}` begins at {first} s, after the run's start at {start} s ({})",
+                signal.origin
+            ),
         )
         .help(format!("start the run at {first} s (`start = {first}`), or add an earlier sample")));
     }

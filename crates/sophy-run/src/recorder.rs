@@ -290,7 +290,6 @@ impl Recorder {
         self.rows += 1;
         Ok(())
     }
-
 }
 
 fn at((start, [c0, c1, c2]): (f64, [f64; 3]), time: f64) -> f64 {

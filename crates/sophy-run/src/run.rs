@@ -121,7 +121,12 @@ impl Run {
     pub fn advance(&mut self, until: f64, budget: u64) -> Result<Pause, Box<Failure>> {
         match self.go_on(until, budget) {
             Ok(pause) => Ok(pause),
-            Err(error) => Err(Box::new(self.failure(&error))),
+            Err(error) => {
+                let failure = self.failure(&error);
+                // What is in the journal reaches to the failure; what follows does not exist.
+                self.time = failure.time;
+                Err(Box::new(failure))
+            }
         }
     }
 
@@ -163,11 +168,7 @@ impl Run {
         self.react_to(instant, &compiled)
     }
 
-    fn react_to(
-        &mut self,
-        instant: f64,
-        compiled: &Compiled,
-    ) -> Result<Option<Accumulation>, HybridError> {
+    fn react_to(&mut self, instant: f64, compiled: &Compiled) -> Result<Option<Accumulation>, HybridError> {
         self.control.react(
             self.engine.as_mut(),
             &compiled.equations,
@@ -184,7 +185,10 @@ impl Run {
     ///
     /// # Errors
     /// [`Failure`] when a value is not finite or the run cannot go on.
-    pub fn reset_states(&mut self, values: &[(StateIndex, f64)]) -> Result<Option<Accumulation>, Box<Failure>> {
+    pub fn reset_states(
+        &mut self,
+        values: &[(StateIndex, f64)],
+    ) -> Result<Option<Accumulation>, Box<Failure>> {
         let compiled = Arc::clone(&self.compiled);
         self.changes.clear();
         self.changes.states.extend_from_slice(values);

@@ -132,7 +132,8 @@ pub fn simulate(
     let outcome = loop {
         let pause = run.advance(experiment.stop, BURST);
         recorder.consume(run, sinks)?;
-        let events: Vec<EventRecord> = run.taken.drain(..).collect::<Vec<_>>().iter().map(|t| event(run, t)).collect();
+        let events: Vec<EventRecord> =
+            run.taken.drain(..).collect::<Vec<_>>().iter().map(|t| event(run, t)).collect();
         observer.events(&events)?;
         let finished = match pause {
             Ok(Pause::Budget) => None,
@@ -153,8 +154,7 @@ pub fn simulate(
             observer.flush()?;
             flushed = Instant::now();
         }
-        let progress =
-            Progress { time: run.time(), elapsed: begin.elapsed(), statistics: run.statistics() };
+        let progress = Progress { time: run.time(), elapsed: begin.elapsed(), statistics: run.statistics() };
         if observer.progress(&progress).is_break() {
             break Outcome::Interrupted;
         }

@@ -88,7 +88,14 @@ impl Build {
     }
 
     /// `transition name when guard goto to do resets`.
-    pub fn when(&mut self, from: Place, name: &str, guard: NodeId, to: Place, resets: &[(VariableId, NodeId)]) {
+    pub fn when(
+        &mut self,
+        from: Place,
+        name: &str,
+        guard: NodeId,
+        to: Place,
+        resets: &[(VariableId, NodeId)],
+    ) {
         self.transition(from, name, Trigger::When(guard), to, resets);
     }
 

@@ -120,10 +120,9 @@ fn read_bytes(world: &dyn World, path: &Path, loaded: &mut Loaded) -> Option<Vec
         Ok(bytes) => Some(bytes),
         Err(error) => {
             loaded.unreadable = true;
-            loaded.diagnostics.push(nowhere(
-                "FI0001",
-                format!("cannot read {}: {}", path.display(), error.reason),
-            ));
+            loaded
+                .diagnostics
+                .push(nowhere("FI0001", format!("cannot read {}: {}", path.display(), error.reason)));
             None
         }
     }

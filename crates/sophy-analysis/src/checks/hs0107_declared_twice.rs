@@ -69,6 +69,9 @@ mod tests {
         let model = check_model("state x\noutput x\nlocation A\n der x = 1\n out x = x", "");
         assert_eq!(model.variables.len(), 2);
         let map = &model.components[0].locations[0].outputs[0];
-        assert_eq!(model.graph.node(map.right), sophy_ir::Node::Leaf(sophy_ir::Leaf::Variable(sophy_ir::VariableId(0))));
+        assert_eq!(
+            model.graph.node(map.right),
+            sophy_ir::Node::Leaf(sophy_ir::Leaf::Variable(sophy_ir::VariableId(0)))
+        );
     }
 }

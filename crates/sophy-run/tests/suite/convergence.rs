@@ -35,11 +35,8 @@ fn the_two_timescale_system_is_followed_and_its_clock_needs_no_event() {
         pattern: pattern.to_owned(),
         quantum: Quantum::absolute(quantum),
     };
-    let experiment = Experiment {
-        stop: 20.0,
-        quanta: vec![rule("x1", 1e-3), rule("x2", 0.1)],
-        ..Experiment::default()
-    };
+    let experiment =
+        Experiment { stop: 20.0, quanta: vec![rule("x1", 1e-3), rule("x2", 0.1)], ..Experiment::default() };
     let result = run(&problems::two_timescale(), &experiment);
     let error = |(t, x): (&f64, &f64)| (result.trajectory.value(0, *t, Side::Right) - x).abs();
     let worst = times.iter().zip(&x1).map(error).fold(0.0, f64::max);

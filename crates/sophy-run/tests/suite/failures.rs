@@ -51,9 +51,7 @@ fn zeno_is_reported_with_its_limit() {
     let back = b.mul(e, rv);
     b.when(here, "bounce", hits, here, &[(v, back)]);
     let result = try_run(&b.model, &to(10.0, 1e-3)).expect("Zeno is an outcome");
-    let Outcome::Zeno(accumulation) = &result.report.outcome else {
-        panic!("{:?}", result.report.outcome)
-    };
+    let Outcome::Zeno(accumulation) = &result.report.outcome else { panic!("{:?}", result.report.outcome) };
     let exact = (2.0f64 / 9.81).sqrt() * 1.8 / 0.2;
     assert!((accumulation.limit - exact).abs() < 1e-9, "{} for {exact}", accumulation.limit);
     assert!((accumulation.ratio - 0.8).abs() < 1e-3);

@@ -39,8 +39,7 @@ fn state_error(result: &Result, states: &Reference, events: &Reference, away: f6
 
 #[test]
 fn events_and_states_converge_with_the_quantum_at_first_order() {
-    for (hopper, name) in
-        [(Hopper::TAU40, "tau40"), (Hopper::TAU20, "tau20"), (Hopper::APPENDIX, "appendix")]
+    for (hopper, name) in [(Hopper::TAU40, "tau40"), (Hopper::TAU20, "tau20"), (Hopper::APPENDIX, "appendix")]
     {
         let events = Reference::read(&format!("hopper/{name}_events.csv"));
         let states = Reference::read(&format!("hopper/{name}_states.csv"));

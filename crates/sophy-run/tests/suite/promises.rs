@@ -133,9 +133,8 @@ fn the_jacobian_is_exact() {
     run.advance(0.6, u64::MAX).expect("goes on");
     let y = run.state(StateIndex(0));
     let jacobian = run.jacobian();
-    let entry = |row: u32, column: u32| {
-        jacobian.iter().find(|e| e.0.0 == row && e.1.0 == column).map(|e| e.2)
-    };
+    let entry =
+        |row: u32, column: u32| jacobian.iter().find(|e| e.0.0 == row && e.1.0 == column).map(|e| e.2);
     assert_eq!(entry(0, 1), Some(1.0));
     assert!((entry(1, 0).unwrap() + 8.0 / (y * y)).abs() < 1e-12);
     assert_eq!(entry(1, 1), Some(-0.2));

@@ -54,8 +54,7 @@ struct Bend {
     due: bool,
 }
 
-const STRAIGHT: Bend =
-    Bend { room: f64::INFINITY, bends: false, coasting: f64::NEG_INFINITY, due: false };
+const STRAIGHT: Bend = Bend { room: f64::INFINITY, bends: false, coasting: f64::NEG_INFINITY, due: false };
 
 /// How often a slot may be scheduled at its own instant.
 pub(super) const MOST_REPEATS: u32 = 100;
@@ -64,8 +63,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// An engine that has not been started.
     pub fn new(equations: &Equations, settings: Settings) -> Self {
         let layout = equations.layout;
-        let (states, sources, watches) =
-            (layout.states as usize, layout.sources(), equations.watches.len());
+        let (states, sources, watches) = (layout.states as usize, layout.sources(), equations.watches.len());
         Qss {
             settings,
             records: vec![Record::line(0.0, 0.0, 0.0); sources],

@@ -89,3 +89,11 @@ const FITS: Code = Code("EX0201");
 fn is_section(place: &str, item: &str) -> bool {
     item.strip_prefix(place).is_some_and(|rest| rest.starts_with('.'))
 }
+
+impl Outputs {
+    /// All files, in the order results, events, pictures; stdout is none.
+    pub fn paths(&self) -> Vec<PathBuf> {
+        let all = self.results.iter().chain(&self.events).chain(&self.plots);
+        all.filter(|path| path.as_os_str() != "-").cloned().collect()
+    }
+}

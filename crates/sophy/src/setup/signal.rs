@@ -36,7 +36,11 @@ pub fn read_signal(path: &Path, input: &str, column: Option<&str>) -> Result<Sig
     };
     let Some((name, values)) = position.and_then(|position| table.columns.get(position)) else {
         let columns = table.columns.into_iter().map(|(name, _)| name).collect();
-        return Err(SignalError::Column { path: path.to_owned(), wanted: column.map(str::to_owned), columns });
+        return Err(SignalError::Column {
+            path: path.to_owned(),
+            wanted: column.map(str::to_owned),
+            columns,
+        });
     };
     Ok(Signal {
         times: table.time,

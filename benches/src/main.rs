@@ -1,0 +1,21 @@
+//! Sophy beside hand-written loops of the same algorithm, in one process, alternating.
+//!
+//! `cargo xtask bench` builds and runs this; the table goes to the terminal and to `results/latest.{md,json}`.
+//! Machines are noisy: read the ratios, which compare neighbours in time, and never a speed without the error
+//! that stands beside it.
+
+mod floor;
+mod hopper;
+mod measure;
+mod oscillator;
+mod report;
+
+fn main() -> std::io::Result<()> {
+    let results = [hopper::bench(), oscillator::bench()].concat();
+    let markdown = report::markdown(&results);
+    print!("{markdown}");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
+    std::fs::create_dir_all(&folder)?;
+    std::fs::write(folder.join("latest.md"), markdown)?;
+    std::fs::write(folder.join("latest.json"), report::json(&results))
+}

@@ -1,0 +1,48 @@
+use crate::measure::Measured;
+use serde_json::json;
+
+/// The table for people.
+pub fn markdown(results: &[Measured]) -> String {
+    let mut text = String::from(
+        "| bench | by | wall, ms | × real time | steps | ns per step | transitions | error | error of | × floor |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
+    );
+    for r in results {
+        let transitions = r.transitions.map_or_else(|| "–".to_owned(), |n| n.to_string());
+        text += &format!(
+            "| {} | {} | {:.3} | {:.0} | {} | {:.1} | {transitions} | {:.1e} | {} | {:.2} |\n",
+            r.bench, r.by, r.wall_ms, real_time(r), r.steps, per_step(r), r.error, r.error_of, r.ratio,
+        );
+    }
+    text
+}
+
+/// The same for machines.
+pub fn json(results: &[Measured]) -> String {
+    let rows: Vec<_> = results
+        .iter()
+        .map(|r| {
+            json!({
+                "bench": r.bench,
+                "by": r.by,
+                "wall_ms": r.wall_ms,
+                "real_time_factor": real_time(r),
+                "steps": r.steps,
+                "ns_per_step": per_step(r),
+                "transitions": r.transitions,
+                "error": r.error,
+                "error_of": r.error_of,
+                "ratio_to_floor": r.ratio,
+            })
+        })
+        .collect();
+    format!("{:#}\n", serde_json::Value::from(rows))
+}
+
+fn real_time(r: &Measured) -> f64 {
+    1e3 * r.simulated / r.wall_ms
+}
+
+fn per_step(r: &Measured) -> f64 {
+    1e6 * r.wall_ms / r.steps as f64
+}
