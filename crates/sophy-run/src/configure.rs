@@ -33,7 +33,7 @@ pub(crate) fn configure(
                 knobs.insert(index, *value);
             }
             None => {
-                collect(Err(unknown("knobs", "parameter", name, &names(&system.parameters, |p| &p.name))))
+                collect(Err(unknown("knobs", "parameter", name, &names(&system.parameters, |p| &p.name))));
             }
         }
     }

@@ -2,6 +2,8 @@
 //!
 //! (tutorial follows)
 
+mod describe;
+mod emit;
 mod error;
 mod load;
 mod metadata;
@@ -10,6 +12,11 @@ mod setup;
 mod simulate;
 mod world;
 
+pub use describe::{
+    AutomatonDescription, Dependency, Description, LocationDescription, Quantity, TransitionDescription,
+    WatchDescription, describe,
+};
+pub use emit::{declarations_text, model_text, system_text};
 pub use error::Error;
 pub use load::{Loaded, Provenance, load, load_experiment, load_model};
 pub use run::{Finished, check, explain, run};
