@@ -54,4 +54,3 @@ pub fn bench() -> Vec<Measured> {
     };
     vec![row("floor", times.first, 1.0), row("interpreter", times.second, times.ratio)]
 }
-

@@ -11,7 +11,15 @@ pub fn markdown(results: &[Measured]) -> String {
         let transitions = r.transitions.map_or_else(|| "–".to_owned(), |n| n.to_string());
         text += &format!(
             "| {} | {} | {:.3} | {:.0} | {} | {:.1} | {transitions} | {:.1e} | {} | {:.2} |\n",
-            r.bench, r.by, r.wall_ms, real_time(r), r.steps, per_step(r), r.error, r.error_of, r.ratio,
+            r.bench,
+            r.by,
+            r.wall_ms,
+            real_time(r),
+            r.steps,
+            per_step(r),
+            r.error,
+            r.error_of,
+            r.ratio,
         );
     }
     text

@@ -283,11 +283,8 @@ impl Floor {
                 self.next[WATCHES + w] = f64::INFINITY;
                 continue;
             }
-            self.watches[w].sign = if ARMED[from][w] {
-                Sign::after(&self.difference(w, t))
-            } else {
-                self.decide(w, t)
-            };
+            self.watches[w].sign =
+                if ARMED[from][w] { Sign::after(&self.difference(w, t)) } else { self.decide(w, t) };
             self.predict(w, t);
         }
     }

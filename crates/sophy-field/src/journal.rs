@@ -1,4 +1,5 @@
-use crate::{AutomatonIndex, InputIndex, LocationIndex, StateIndex};
+use crate::{AutomatonIndex, InputIndex, LocationIndex, StateIndex, WatchIndex};
+use sophy_segment::Sign;
 
 /// What an engine and the hybrid logic write down as a run goes on, in the order it happens. The recorder
 /// turns it into rows; nothing reads it back to decide anything.
@@ -39,6 +40,15 @@ pub enum Record {
         /// The state.
         state: StateIndex,
     },
+    /// A watch that decides switches (kinks) changed its sign.
+    Switch {
+        /// The instant, s.
+        time: f64,
+        /// The watch.
+        watch: WatchIndex,
+        /// Its sign now.
+        sign: Sign,
+    },
     /// Micro-step `step` at `time` begins; what was written before holds up to it.
     Jump {
         /// The instant, s.
@@ -65,6 +75,7 @@ impl Record {
             Record::Segment { time, .. }
             | Record::Input { time, .. }
             | Record::Step { time, .. }
+            | Record::Switch { time, .. }
             | Record::Jump { time, .. }
             | Record::Location { time, .. } => time,
         }

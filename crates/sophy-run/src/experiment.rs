@@ -31,6 +31,8 @@ pub struct Experiment {
     pub every: Option<f64>,
     /// Record every micro-step.
     pub microsteps: bool,
+    /// Log the kinks crossed (`abs`, `min`, `if`, … in rates) along with transitions.
+    pub all_events: bool,
 }
 
 impl Default for Experiment {
@@ -50,6 +52,7 @@ impl Default for Experiment {
             record: None,
             every: None,
             microsteps: false,
+            all_events: false,
         }
     }
 }

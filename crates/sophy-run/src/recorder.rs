@@ -4,8 +4,9 @@ use crate::configure::{names, unknown};
 use crate::experiment::{Experiment, ExperimentError, matches};
 use crate::grid::Grid;
 use crate::run::Run;
-use sophy_field::{LocationIndex, Record, SourceIndex};
+use sophy_field::{LocationIndex, Record, SourceIndex, WatchIndex};
 use sophy_record::{Column, ColumnKind, Row, Schema, Sink, SinkError, Trajectory};
+use sophy_segment::Sign;
 
 /// Turns the journal of a run into rows for sinks, and into a trajectory if one is wanted.
 ///
@@ -32,6 +33,9 @@ pub struct Recorder {
     label_values: Vec<u32>,
     /// The exact trajectory, if wanted.
     pub trajectory: Option<Trajectory>,
+    /// Kinks crossed since they were last drained, if the experiment asks for them.
+    pub(crate) switches: Vec<(f64, WatchIndex, Sign)>,
+    keep_switches: bool,
     rows: u64,
 }
 
@@ -71,6 +75,8 @@ impl Recorder {
             values: Vec::new(),
             label_values: Vec::new(),
             trajectory: None,
+            switches: Vec::new(),
+            keep_switches: experiment.all_events,
             rows: 0,
         };
         let available = available(system, layout.states);
@@ -219,6 +225,11 @@ impl Recorder {
                 self.locations[automaton.position()] = location;
                 if let Some(trajectory) = &mut self.trajectory {
                     trajectory.push_location(automaton.position(), time, location.0);
+                }
+            }
+            Record::Switch { time, watch, sign } => {
+                if self.keep_switches {
+                    self.switches.push((time, watch, sign));
                 }
             }
             Record::Jump { .. } | Record::Step { .. } => {}

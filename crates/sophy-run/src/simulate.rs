@@ -2,8 +2,10 @@ use crate::experiment::{Experiment, ExperimentError};
 use crate::failure::Failure;
 use crate::recorder::Recorder;
 use crate::run::{Pause, Run, RunStatistics, StartError};
+use sophy_field::WatchIndex;
 use sophy_hybrid::{Accumulation, Taken};
 use sophy_record::{EventRecord, Sink, SinkError};
+use sophy_segment::Sign;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -132,8 +134,7 @@ pub fn simulate(
     let outcome = loop {
         let pause = run.advance(experiment.stop, BURST);
         recorder.consume(run, sinks)?;
-        let events: Vec<EventRecord> =
-            run.taken.drain(..).collect::<Vec<_>>().iter().map(|t| event(run, t)).collect();
+        let events = events(run, recorder);
         observer.events(&events)?;
         let finished = match pause {
             Ok(Pause::Budget) => None,
@@ -167,6 +168,30 @@ pub fn simulate(
         statistics: run.statistics(),
         rows: recorder.rows(),
     })
+}
+
+/// What happened since the last burst, in the order of time; of one time kinks come first.
+fn events(run: &mut Run, recorder: &mut Recorder) -> Vec<EventRecord> {
+    let mut events: Vec<EventRecord> =
+        recorder.switches.drain(..).map(|(time, watch, sign)| switch(run, time, watch, sign)).collect();
+    events.extend(run.taken.iter().map(|taken| event(run, taken)));
+    events.sort_by(|a, b| a.time.total_cmp(&b.time));
+    run.taken.clear();
+    events
+}
+
+/// A kink as a transition of the small automaton that it is: `x - 1 < 0`, from false to true.
+fn switch(run: &Run, time: f64, watch: WatchIndex, sign: Sign) -> EventRecord {
+    let system = run.system();
+    let below = sign == Sign::Negative;
+    EventRecord {
+        time,
+        step: 0,
+        component: String::new(),
+        transition: format!("{} < 0", system.text(system.watches[watch.position()].difference)),
+        from: (!below).to_string(),
+        to: below.to_string(),
+    }
 }
 
 fn event(run: &Run, taken: &Taken) -> EventRecord {

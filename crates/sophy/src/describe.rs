@@ -122,7 +122,11 @@ pub fn describe(model: &Model) -> Result<Description, Error> {
             .map(|(p, value)| quantity(&p.name, &p.unit, Some(*value)))
             .collect(),
         automata: automata(&system),
-        dependencies: system.states.iter().map(|state| dependency(&system, &state.name, &state.rate)).collect(),
+        dependencies: system
+            .states
+            .iter()
+            .map(|state| dependency(&system, &state.name, &state.rate))
+            .collect(),
         watches: system
             .watches
             .iter()

@@ -45,7 +45,10 @@ pub fn model_text(model: &Model) -> String {
     let mut out = Lines::default();
     out.line(0, format!("model {}", model.name));
     for (position, component) in model.components.iter().enumerate() {
-        out.line(1, format!("component {}", if component.name.is_empty() { "(nameless)" } else { &component.name }));
+        out.line(
+            1,
+            format!("component {}", if component.name.is_empty() { "(nameless)" } else { &component.name }),
+        );
         variables(model, ComponentIndex(position as u32), &mut out);
         locations(model, component, &mut out);
     }
@@ -72,7 +75,9 @@ fn variables(model: &Model, component: ComponentIndex, out: &mut Lines) {
             2,
             match variable.kind {
                 VariableKind::Parameter(value) => format!("parameter {name} = {}{unit}", text(model, value)),
-                VariableKind::State(Some(initial)) => format!("state {name} := {}{unit}", text(model, initial)),
+                VariableKind::State(Some(initial)) => {
+                    format!("state {name} := {}{unit}", text(model, initial))
+                }
                 VariableKind::State(None) => format!("state {name}{unit}"),
                 VariableKind::Input => format!("input {name}{unit}"),
                 VariableKind::Output => format!("output {name}{unit}"),
@@ -83,7 +88,8 @@ fn variables(model: &Model, component: ComponentIndex, out: &mut Lines) {
 
 fn locations(model: &Model, component: &Component, out: &mut Lines) {
     let name = |variable: VariableId| &model.variable(variable).name;
-    let equation = |e: &Equation, left: &str| format!("{left}{} = {}", name(e.variable), text(model, e.right));
+    let equation =
+        |e: &Equation, left: &str| format!("{left}{} = {}", name(e.variable), text(model, e.right));
     for (position, location) in component.locations.iter().enumerate() {
         let initial = if position == component.initial_location { " (initial)" } else { "" };
         out.line(2, format!("location {}{initial}", location.name));
@@ -93,7 +99,8 @@ fn locations(model: &Model, component: &Component, out: &mut Lines) {
             let trigger = match &transition.trigger {
                 Trigger::When(guard) => format!("when {}", text(model, *guard)),
                 Trigger::On { events, guard } => {
-                    let guard = guard.map(|guard| format!(" when {}", text(model, guard))).unwrap_or_default();
+                    let guard =
+                        guard.map(|guard| format!(" when {}", text(model, guard))).unwrap_or_default();
                     format!("on {}{guard}", events.join(", "))
                 }
             };

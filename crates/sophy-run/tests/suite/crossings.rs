@@ -2,7 +2,7 @@
 
 use crate::support::{by, run, to};
 use sophy_ir::Unary;
-use sophy_run::Method;
+use sophy_run::{Experiment, Method};
 use sophy_testkit::{Build, problems};
 
 #[test]
@@ -81,4 +81,8 @@ fn kinks_in_rates_are_events() {
     assert!((last("floor") - 1.0).abs() < 1e-12, "{}", last("floor"));
     assert!((last("sign") - 1.5).abs() < 1e-12, "{}", last("sign"));
     assert!(result.events.is_empty(), "kinks are not transitions");
+    let all = run(&b.model, &Experiment { all_events: true, ..to(3.5, 1e-3) });
+    let kinks: Vec<(f64, &str)> = all.events.iter().map(|e| (e.time, e.transition.as_str())).collect();
+    assert!(kinks.contains(&(1.0, "clock - 1.0 < 0")), "{kinks:?}");
+    assert!(kinks.iter().any(|(time, _)| *time == 2.0), "floor steps at 2: {kinks:?}");
 }

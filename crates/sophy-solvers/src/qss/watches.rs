@@ -1,7 +1,7 @@
 //! Watches: the first sign change of a guard's or switch's quantity, located on x.
 
 use super::engine::{MOST_REPEATS, Qss};
-use sophy_field::{Equations, Fault, Formula, Journal, SourceIndex, WatchIndex, sign_bit};
+use sophy_field::{Equations, Fault, Formula, Journal, Record, SourceIndex, WatchIndex, sign_bit};
 use sophy_segment::{Interval, Search, Sign, Start, first_crossing, parabola_crossing};
 
 /// What is known of a watch.
@@ -225,6 +225,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         self.statistics.crossings += 1;
         if code.guard {
             self.changed.push(watch);
+        }
+        if journal.wanted && !e.on_watch[watch.position()].is_empty() {
+            journal.push(Record::Switch { time: t, watch, sign });
         }
         self.publish(e, watch, sign);
         self.stair(e, watch, sign, located, t, journal)?;

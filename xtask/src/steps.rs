@@ -1,0 +1,47 @@
+//! What the commands do: one call of cargo after the other.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// Formatting, lints and all tests; ends with the time of each part.
+pub(crate) fn ci() -> Result<(), String> {
+    cargo(&["fmt", "--all", "--check"])?;
+    let lints = cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    let build = cargo(&["test", "--workspace", "--no-run"])?;
+    let tests = cargo(&["test", "--workspace"])?;
+    let [build, lints, tests] = [build, lints, tests].map(|part| part.as_secs());
+    say(&format!("all checks passed: clippy {lints} s, build {build} s, tests {tests} s"));
+    Ok(())
+}
+
+/// Builds the benches in release mode and runs them.
+pub(crate) fn bench() -> Result<(), String> {
+    cargo(&["run", "--release", "--manifest-path", "benches/Cargo.toml"]).map(drop)
+}
+
+/// Tells the person at the terminal.
+pub(crate) fn say(message: &str) {
+    // Nobody is left to tell if this fails.
+    let _ = writeln!(std::io::stderr(), "{message}");
+}
+
+/// Runs cargo in the root of the repository.
+fn cargo(arguments: &[&str]) -> Result<Duration, String> {
+    let line = format!("cargo {}", arguments.join(" "));
+    say(&format!("$ {line}"));
+    let begin = Instant::now();
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status = Command::new(program).args(arguments).current_dir(root()).status();
+    match status {
+        Ok(status) if status.success() => Ok(begin.elapsed()),
+        Ok(_) => Err(format!("`{line}` failed")),
+        Err(error) => Err(format!("`{line}` cannot be run: {error}")),
+    }
+}
+
+/// The root of the repository.
+pub(crate) fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
