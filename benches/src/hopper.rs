@@ -41,10 +41,10 @@ pub fn bench() -> Vec<Measured> {
     let reference = Reference::read("hopper/tau40_events.csv").numbers("t");
     let last = reference.len() - 1;
     let error = (hops.transitions[last] - reference[last]).abs();
-    let row = |by, wall_ms, ratio| Measured {
+    let row = |by, time, ratio| Measured {
         bench: "hopper-1000s",
         by,
-        wall_ms,
+        time,
         simulated: STOP,
         steps: hops.steps,
         transitions: Some(taken.len()),

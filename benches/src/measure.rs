@@ -1,3 +1,4 @@
+use cpu_time::ThreadTime;
 use std::time::Instant;
 
 /// One row of the table.
@@ -7,8 +8,8 @@ pub struct Measured {
     pub bench: &'static str,
     /// Who solved it.
     pub by: &'static str,
-    /// Median of wall times, ms.
-    pub wall_ms: f64,
+    /// What it took.
+    pub time: Time,
     /// Simulated time, s.
     pub simulated: f64,
     /// Changes of quantised states.
@@ -19,17 +20,26 @@ pub struct Measured {
     pub error_of: &'static str,
     /// Its absolute value.
     pub error: f64,
-    /// Median of the ratios to the floor run just before, 1 for the floor.
+    /// Median of the ratios of its CPU time to that of the floor run just before; 1 for the floor.
     pub ratio: f64,
 }
 
-/// Wall times of two rivals that ran in turn.
+/// Medians.
+#[derive(Clone, Copy, Debug)]
+pub struct Time {
+    /// By the clock on the wall, ms.
+    pub wall_ms: f64,
+    /// Of this thread alone, ms: what others do at the same time disturbs it less.
+    pub cpu_ms: f64,
+}
+
+/// Times of two rivals that ran in turn.
 pub struct Times {
-    /// Median of the first, ms.
-    pub first: f64,
-    /// Median of the second, ms.
-    pub second: f64,
-    /// Median of second / first, pair by pair.
+    /// Of the first.
+    pub first: Time,
+    /// Of the second.
+    pub second: Time,
+    /// Median of second / first in CPU time, pair by pair.
     pub ratio: f64,
 }
 
@@ -41,20 +51,32 @@ pub fn alternate<A, B>(
     mut second: impl FnMut() -> B,
 ) -> (Times, A, B) {
     let (mut a, mut b) = (first(), second());
-    let mut pairs = Vec::with_capacity(repetitions);
+    let (mut first_times, mut second_times) = (Vec::new(), Vec::new());
     for _ in 0..repetitions {
-        let begin = Instant::now();
-        a = first();
-        let between = Instant::now();
-        b = second();
-        pairs.push(((between - begin).as_secs_f64(), between.elapsed().as_secs_f64()));
+        let (result, time) = timed(&mut first);
+        a = result;
+        first_times.push(time);
+        let (result, time) = timed(&mut second);
+        b = result;
+        second_times.push(time);
     }
-    let times = Times {
-        first: 1e3 * median(pairs.iter().map(|p| p.0)),
-        second: 1e3 * median(pairs.iter().map(|p| p.1)),
-        ratio: median(pairs.iter().map(|p| p.1 / p.0)),
-    };
+    let ratios = first_times.iter().zip(&second_times).map(|(first, second)| second.cpu_ms / first.cpu_ms);
+    let times = Times { ratio: median(ratios), first: medians(&first_times), second: medians(&second_times) };
     (times, a, b)
+}
+
+fn timed<R>(run: &mut impl FnMut() -> R) -> (R, Time) {
+    let (wall, cpu) = (Instant::now(), ThreadTime::now());
+    let result = run();
+    let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
+    (result, Time { wall_ms: 1e3 * wall.as_secs_f64(), cpu_ms: 1e3 * cpu.as_secs_f64() })
+}
+
+fn medians(times: &[Time]) -> Time {
+    Time {
+        wall_ms: median(times.iter().map(|time| time.wall_ms)),
+        cpu_ms: median(times.iter().map(|time| time.cpu_ms)),
+    }
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {

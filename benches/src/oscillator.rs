@@ -36,10 +36,10 @@ pub fn bench() -> Vec<Measured> {
     let (times_of, x1) = (reference.numbers("t"), reference.numbers("x1"));
     assert_eq!(times_of.last(), Some(&STOP));
     let error = (motion.end[0] - x1[x1.len() - 1]).abs();
-    let row = |by, wall_ms, ratio| Measured {
+    let row = |by, time, ratio| Measured {
         bench: "oscillator",
         by,
-        wall_ms,
+        time,
         simulated: STOP,
         steps: motion.steps,
         transitions: None,

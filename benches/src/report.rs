@@ -4,17 +4,18 @@ use serde_json::json;
 /// The table for people.
 pub fn markdown(results: &[Measured]) -> String {
     let mut text = String::from(
-        "| bench | by | wall, ms | × real time | steps | ns per step | transitions | error | error of | × floor |\n\
-         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
+        "| bench | by | wall, ms | × real time | CPU, ms | steps | ns per step | transitions | error | error of | × floor |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
     );
     for r in results {
         let transitions = r.transitions.map_or_else(|| "–".to_owned(), |n| n.to_string());
         text += &format!(
-            "| {} | {} | {:.3} | {:.0} | {} | {:.1} | {transitions} | {:.1e} | {} | {:.2} |\n",
+            "| {} | {} | {:.3} | {:.0} | {:.3} | {} | {:.1} | {transitions} | {:.1e} | {} | {:.2} |\n",
             r.bench,
             r.by,
-            r.wall_ms,
+            r.time.wall_ms,
             real_time(r),
+            r.time.cpu_ms,
             r.steps,
             per_step(r),
             r.error,
@@ -33,7 +34,8 @@ pub fn json(results: &[Measured]) -> String {
             json!({
                 "bench": r.bench,
                 "by": r.by,
-                "wall_ms": r.wall_ms,
+                "wall_ms": r.time.wall_ms,
+                "cpu_ms": r.time.cpu_ms,
                 "real_time_factor": real_time(r),
                 "steps": r.steps,
                 "ns_per_step": per_step(r),
@@ -47,10 +49,12 @@ pub fn json(results: &[Measured]) -> String {
     format!("{:#}\n", serde_json::Value::from(rows))
 }
 
+/// Simulated time over wall time.
 fn real_time(r: &Measured) -> f64 {
-    1e3 * r.simulated / r.wall_ms
+    1e3 * r.simulated / r.time.wall_ms
 }
 
+/// CPU time per step, ns.
 fn per_step(r: &Measured) -> f64 {
-    1e6 * r.wall_ms / r.steps as f64
+    1e6 * r.time.cpu_ms / r.steps as f64
 }

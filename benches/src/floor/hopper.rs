@@ -97,12 +97,8 @@ impl Floor {
         let slopes = (self.v.q[0], self.rate_v(0.0)[0], self.clock());
         (self.y.q[1], self.v.q[1], self.timer.q[1]) = slopes;
         self.all_rates(0.0);
-        for w in 0..3 {
-            if ARMED[FLIGHT][w] {
-                self.watches[w].sign = self.decide(w, 0.0);
-                self.predict(w, 0.0);
-            }
-        }
+        self.watches[LENGTH].sign = self.decide(LENGTH, 0.0);
+        self.predict(LENGTH, 0.0);
         self.react(0.0);
     }
 
@@ -278,14 +274,14 @@ impl Floor {
             self.timer.q[1] = self.clock();
         }
         self.all_rates(t);
-        for w in 0..3 {
-            if !ARMED[to][w] {
-                self.next[WATCHES + w] = f64::INFINITY;
-                continue;
+        for w in [LENGTH, SPEED, TIMER] {
+            self.next[WATCHES + w] = f64::INFINITY;
+            if ARMED[to][w] {
+                let stays = ARMED[from][w];
+                self.watches[w].sign =
+                    if stays { Sign::after(&self.difference(w, t)) } else { self.decide(w, t) };
+                self.predict(w, t);
             }
-            self.watches[w].sign =
-                if ARMED[from][w] { Sign::after(&self.difference(w, t)) } else { self.decide(w, t) };
-            self.predict(w, t);
         }
     }
 

@@ -24,11 +24,13 @@ pub(crate) struct Gather<'a> {
     known: HashMap<(AutomatonIndex, Vec<Vec<StateIndex>>), Entry>,
     /// Per state, per location of its owner: whether the rate bends there.
     bends: Vec<Vec<bool>>,
+    /// Per leaf: the rates that read it, directly or through algebraic variables, as state and location.
+    pub(crate) readers: HashMap<Leaf, Vec<(StateIndex, usize)>>,
 }
 
 impl<'a> Gather<'a> {
     pub(crate) fn new(system: &'a System, width: u32, bends: Vec<Vec<bool>>) -> Self {
-        Gather {
+        let mut gather = Gather {
             system,
             memory: Memory::new(system, width),
             programs: vec![Program::default()],
@@ -39,37 +41,40 @@ impl<'a> Gather<'a> {
             algebraic_entries: HashMap::new(),
             known: HashMap::new(),
             bends,
-        }
-    }
-
-    /// The entries that evaluate, in every combination of locations, the rates for which `reads` holds
-    /// (asked with a leaf-closure of the row in one location).
-    pub(crate) fn influence(&mut self, reads: impl Fn(&BTreeSet<Leaf>) -> bool) -> Range<u32> {
-        let mut selected: BTreeMap<AutomatonIndex, Vec<Vec<StateIndex>>> = BTreeMap::new();
-        for (position, state) in self.system.states.iter().enumerate() {
-            let owner = state.rate.owner;
-            let locations = state.rate.by_location.len();
+            readers: HashMap::new(),
+        };
+        for (position, state) in system.states.iter().enumerate() {
             for (location, &node) in state.rate.by_location.iter().enumerate() {
-                if reads(&self.closure([node])) {
-                    let rows = selected.entry(owner).or_insert_with(|| vec![Vec::new(); locations]);
-                    rows[location].push(StateIndex::new(position));
+                for leaf in gather.closure([node]) {
+                    gather.readers.entry(leaf).or_default().push((StateIndex::new(position), location));
                 }
             }
+        }
+        gather
+    }
+
+    /// The entries that evaluate, in every combination of locations, the rates that read one of `leaves`.
+    pub(crate) fn influence(&mut self, leaves: &[Leaf]) -> Range<u32> {
+        let mut selected: BTreeMap<AutomatonIndex, Vec<Vec<StateIndex>>> = BTreeMap::new();
+        for (state, location) in leaves.iter().filter_map(|leaf| self.readers.get(leaf)).flatten() {
+            let row = &self.system.states[state.position()].rate;
+            let rows = selected.entry(row.owner).or_insert_with(|| vec![Vec::new(); row.by_location.len()]);
+            rows[*location].push(*state);
+        }
+        for states in selected.values_mut().flatten() {
+            states.sort_unstable();
+            states.dedup();
         }
         self.entries_for(selected)
     }
 
-    /// The entries that evaluate every rate of some states.
-    pub(crate) fn all_of(&mut self, wanted: impl Fn(StateIndex) -> bool) -> Range<u32> {
+    /// The entries that evaluate the rates of some states, given in order.
+    pub(crate) fn all_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
         let mut selected: BTreeMap<AutomatonIndex, Vec<Vec<StateIndex>>> = BTreeMap::new();
-        for (position, state) in self.system.states.iter().enumerate() {
-            if wanted(StateIndex::new(position)) {
-                let locations = state.rate.by_location.len();
-                let rows = selected.entry(state.rate.owner).or_insert_with(|| vec![Vec::new(); locations]);
-                for row in rows {
-                    row.push(StateIndex::new(position));
-                }
-            }
+        for state in states {
+            let row = &self.system.states[state.position()].rate;
+            let rows = selected.entry(row.owner).or_insert_with(|| vec![Vec::new(); row.by_location.len()]);
+            rows.iter_mut().for_each(|rows| rows.push(state));
         }
         self.entries_for(selected)
     }

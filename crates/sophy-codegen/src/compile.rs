@@ -5,8 +5,8 @@ use crate::interpreter::{enclose, run};
 use crate::logic::{self, LogicError};
 use crate::programs::{Memory, source_of};
 use sophy_field::{
-    AutomatonCode, Equations, Formula, Logic, ParameterIndex, Selected, SourceIndex, StateIndex, WatchCode,
-    WatchIndex, sign_bit,
+    AlgebraicIndex, AutomatonCode, Equations, Formula, Logic, ParameterIndex, Selected, SourceIndex,
+    StairIndex, StateIndex, TruthIndex, WatchCode, WatchIndex, sign_bit,
 };
 use sophy_ir::{Affine, Comparison, Leaf, NodeId, Row, System, Value, evaluate};
 use sophy_segment::Sign;
@@ -36,6 +36,12 @@ pub enum CompileError {
         name: String,
         /// What came out.
         value: f64,
+    },
+    /// Switches (`if`, `min`, `abs`, …) nest too deep.
+    #[error("switches (`if`, `min`, `max`, `abs`, …) nest deeper than 256 somewhere in `{system}`")]
+    TooDeep {
+        /// The system.
+        system: String,
     },
     /// A guard combines more comparisons than can be kept.
     #[error("the guard of transition `{transition}` nests more than 64 conditions")]
@@ -68,24 +74,23 @@ pub fn compile(system: &System, knobs: &Parameters, order: u32) -> Result<Compil
         .chain((0..system.inputs.len()).map(|i| Leaf::Input(sophy_field::InputIndex::new(i))))
         .chain([Leaf::Time])
         .collect();
-    let influence = source_leaves.iter().map(|leaf| gather.influence(|row| row.contains(leaf))).collect();
-    let own = (0..system.states.len()).map(|s| gather.all_of(|state| state.position() == s)).collect();
+    let influence = source_leaves.iter().map(|&leaf| gather.influence(&[leaf])).collect();
+    let own = (0..system.states.len()).map(|s| gather.all_of([StateIndex::new(s)])).collect();
     let on_location = (0..system.automata.len()).map(|a| location_entries(&mut gather, a)).collect();
-    let on_watch = (0..system.watches.len())
-        .map(|w| {
-            let decided = decided_leaves(system, WatchIndex::new(w));
-            gather.influence(|row| row.iter().any(|leaf| decided.contains(leaf)))
-        })
-        .collect();
+    let deciders = Deciders::new(&gather);
+    let on_watch = deciders.decided.iter().map(|decided| gather.influence(decided)).collect();
     let rates = system.states.iter().map(|s| gather.selected(&s.rate, false)).collect();
     let outputs = system.outputs.iter().map(|y| gather.selected(&y.value, true)).collect();
     let watches: Vec<WatchCode> =
-        (0..system.watches.len()).map(|w| watch(&mut gather, WatchIndex::new(w))).collect();
+        (0..system.watches.len()).map(|w| watch(&mut gather, &deciders, WatchIndex::new(w))).collect();
     let logic = logic::compile(&mut gather, &parameters)?;
     let automata = automata(&gather);
     let watches_of_source = watches_of_source(&gather);
 
     let Gather { mut memory, mut programs, blocks, sources, mut rows, entries, .. } = gather;
+    if memory.too_deep {
+        return Err(CompileError::TooDeep { system: system.name.clone() });
+    }
     memory.finish(&mut programs);
     for row in &mut rows {
         row.result = memory.place(row.result);
@@ -179,29 +184,65 @@ fn is_affine(system: &mut System, node: NodeId) -> bool {
 /// algebraic variables.
 fn location_entries(gather: &mut Gather<'_>, automaton: usize) -> std::ops::Range<u32> {
     let system = gather.system;
-    let rates: Vec<bool> = system
-        .states
-        .iter()
-        .map(|state| {
-            let closure = gather.closure(state.rate.by_location.iter().copied());
-            let reads = |leaf: &Leaf| match leaf {
-                Leaf::Algebraic(z) => system.algebraics[z.position()].value.owner.position() == automaton,
-                _ => false,
-            };
-            state.rate.owner.position() == automaton || closure.iter().any(reads)
-        })
+    let mut states: BTreeSet<StateIndex> = (0..system.states.len())
+        .filter(|&s| system.states[s].rate.owner.position() == automaton)
+        .map(StateIndex::new)
         .collect();
-    gather.all_of(|state| rates[state.position()])
+    for (z, algebraic) in system.algebraics.iter().enumerate() {
+        if algebraic.value.owner.position() == automaton {
+            let readers = gather.readers.get(&Leaf::Algebraic(AlgebraicIndex::new(z)));
+            states.extend(readers.into_iter().flatten().map(|(state, _)| *state));
+        }
+    }
+    gather.all_of(states)
 }
 
-/// The truths and stairs that a watch decides.
-fn decided_leaves(system: &System, watch: WatchIndex) -> BTreeSet<Leaf> {
-    let truths = system.truths.iter().enumerate().filter(|(_, t)| t.watch == watch);
-    let stairs = system.stairs.iter().enumerate().filter(|(_, s)| s.lower == watch || s.upper == watch);
-    truths
-        .map(|(i, _)| Leaf::Truth(sophy_field::TruthIndex::new(i)))
-        .chain(stairs.map(|(i, _)| Leaf::Stair(sophy_field::StairIndex::new(i))))
-        .collect()
+/// Who decides what, and who reads it.
+struct Deciders {
+    /// Per watch: the truths and stairs it decides.
+    decided: Vec<Vec<Leaf>>,
+    /// Per watch: the watches that read what it decides.
+    dependents: Vec<Vec<WatchIndex>>,
+    /// Per watch: whether a guard reads what it decides.
+    guards: Vec<bool>,
+}
+
+impl Deciders {
+    fn new(gather: &Gather<'_>) -> Self {
+        let system = gather.system;
+        let count = system.watches.len();
+        let mut decided = vec![Vec::new(); count];
+        for (i, truth) in system.truths.iter().enumerate() {
+            decided[truth.watch.position()].push(Leaf::Truth(TruthIndex::new(i)));
+        }
+        for (i, stair) in system.stairs.iter().enumerate() {
+            for watch in [stair.lower, stair.upper] {
+                decided[watch.position()].push(Leaf::Stair(StairIndex::new(i)));
+            }
+        }
+        let deciders = |leaf: Leaf| match leaf {
+            Leaf::Truth(i) => vec![system.truths[i.position()].watch],
+            Leaf::Stair(i) => {
+                vec![system.stairs[i.position()].lower, system.stairs[i.position()].upper]
+            }
+            _ => Vec::new(),
+        };
+        let mut dependents = vec![Vec::new(); count];
+        for (position, watch) in system.watches.iter().enumerate() {
+            let read: BTreeSet<WatchIndex> =
+                gather.closure([watch.difference]).into_iter().flat_map(deciders).collect();
+            for decider in read {
+                dependents[decider.position()].push(WatchIndex::new(position));
+            }
+        }
+        let mut guards = vec![false; count];
+        for guard in system.transitions.iter().filter_map(|t| t.trigger.guard()) {
+            for decider in system.graph.dependencies([guard]).into_iter().flat_map(deciders) {
+                guards[decider.position()] = true;
+            }
+        }
+        Deciders { decided, dependents, guards }
+    }
 }
 
 /// The signs of `left − right` for which a comparison holds.
@@ -217,32 +258,26 @@ pub(crate) fn signs_of(comparison: Comparison) -> u8 {
     }
 }
 
-fn watch(gather: &mut Gather<'_>, index: WatchIndex) -> WatchCode {
+fn watch(gather: &mut Gather<'_>, deciders: &Deciders, index: WatchIndex) -> WatchCode {
     let system = gather.system;
     let watch = &system.watches[index.position()];
-    let truths = system.truths.iter().enumerate().filter(|(_, t)| t.watch == index);
-    let stair = system.stairs.iter().enumerate().find_map(|(i, s)| {
-        let step = if s.lower == index { -1.0 } else { 1.0 };
-        (s.lower == index || s.upper == index).then_some((i as u32, step))
+    let decided = &deciders.decided[index.position()];
+    let truths = decided.iter().filter_map(|leaf| match leaf {
+        Leaf::Truth(i) => Some((i.0, signs_of(system.truths[i.position()].comparison))),
+        _ => None,
     });
-    let decided = decided_leaves(system, index);
-    let dependents = (0..system.watches.len())
-        .filter(|&other| {
-            let closure = gather.closure([system.watches[other].difference]);
-            closure.iter().any(|leaf| decided.contains(leaf))
-        })
-        .map(WatchIndex::new)
-        .collect();
-    let guard = system.transitions.iter().any(|t| {
-        t.trigger
-            .guard()
-            .is_some_and(|node| system.graph.dependencies([node]).iter().any(|leaf| decided.contains(leaf)))
+    let stair = decided.iter().find_map(|leaf| match leaf {
+        Leaf::Stair(i) => {
+            let step = if system.stairs[i.position()].lower == index { -1.0 } else { 1.0 };
+            Some((i.0, step))
+        }
+        _ => None,
     });
     WatchCode {
-        truths: truths.map(|(i, t)| (i as u32, signs_of(t.comparison))).collect(),
+        truths: truths.collect(),
         stair,
-        dependents,
-        guard,
+        dependents: deciders.dependents[index.position()].clone(),
+        guard: deciders.guards[index.position()],
         affine: watch.affine,
         formula: gather.formula(watch.difference, false),
         left: gather.formula(watch.left, false),

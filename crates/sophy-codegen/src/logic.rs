@@ -57,48 +57,57 @@ pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Log
     Ok(logic)
 }
 
-fn guard_steps(system: &System, node: NodeId, parameters: &[f64], steps: &mut Vec<GuardStep>) {
-    if system.is_parametric(node) {
-        let mut leaf = |leaf: Leaf| match leaf {
-            Leaf::Parameter(i) => Value::Real(parameters.get(i.position()).copied().unwrap_or(f64::NAN)),
-            _ => Value::Real(f64::NAN),
-        };
-        steps.push(GuardStep::Constant(evaluate(&system.graph, node, &mut leaf).boolean()));
-        return;
-    }
-    match system.graph.node(node) {
-        Node::Leaf(Leaf::Truth(i)) => {
-            let truth = system.truths[i.position()];
-            steps.push(GuardStep::Sign(truth.watch, signs_of(truth.comparison)));
-        }
-        Node::Not(a) => {
-            guard_steps(system, a, parameters, steps);
-            steps.push(GuardStep::Not);
-        }
-        Node::And(a, b) => pair(system, [a, b], parameters, steps, GuardStep::And),
-        Node::Or(a, b) => pair(system, [a, b], parameters, steps, GuardStep::Or),
-        // if c then a else b = (c and a) or (not c and b)
-        Node::Select(c, a, b) => {
-            pair(system, [c, a], parameters, steps, GuardStep::And);
-            guard_steps(system, c, parameters, steps);
-            steps.push(GuardStep::Not);
-            guard_steps(system, b, parameters, steps);
-            steps.push(GuardStep::And);
-            steps.push(GuardStep::Or);
-        }
-        // A number used as a condition does not pass the checks.
-        _ => steps.push(GuardStep::Constant(false)),
-    }
+/// What is still to be written of a guard.
+enum Task {
+    Visit(NodeId),
+    Write(GuardStep),
 }
 
-fn pair(
-    system: &System,
-    [a, b]: [NodeId; 2],
-    parameters: &[f64],
-    steps: &mut Vec<GuardStep>,
-    join: GuardStep,
-) {
-    guard_steps(system, a, parameters, steps);
-    guard_steps(system, b, parameters, steps);
-    steps.push(join);
+/// A guard in postfix form, by a stack of its own: conditions may be chained without limit.
+fn guard_steps(system: &System, root: NodeId, parameters: &[f64], steps: &mut Vec<GuardStep>) {
+    let mut tasks = vec![Task::Visit(root)];
+    while let Some(task) = tasks.pop() {
+        let node = match task {
+            Task::Write(step) => {
+                steps.push(step);
+                continue;
+            }
+            Task::Visit(node) => node,
+        };
+        // Tasks are taken from the end.
+        match system.graph.node(node) {
+            Node::Leaf(Leaf::Truth(i)) => {
+                let truth = system.truths[i.position()];
+                steps.push(GuardStep::Sign(truth.watch, signs_of(truth.comparison)));
+            }
+            Node::Not(a) => tasks.extend([Task::Write(GuardStep::Not), Task::Visit(a)]),
+            Node::And(a, b) => {
+                tasks.extend([Task::Write(GuardStep::And), Task::Visit(b), Task::Visit(a)]);
+            }
+            Node::Or(a, b) => tasks.extend([Task::Write(GuardStep::Or), Task::Visit(b), Task::Visit(a)]),
+            // if c then a else b = (c and a) or (not c and b)
+            Node::Select(c, a, b) => tasks.extend([
+                Task::Write(GuardStep::Or),
+                Task::Write(GuardStep::And),
+                Task::Visit(b),
+                Task::Write(GuardStep::Not),
+                Task::Visit(c),
+                Task::Write(GuardStep::And),
+                Task::Visit(a),
+                Task::Visit(c),
+            ]),
+            _ if system.is_parametric(node) => {
+                let mut leaf = |leaf: Leaf| match leaf {
+                    Leaf::Parameter(i) => {
+                        Value::Real(parameters.get(i.position()).copied().unwrap_or(f64::NAN))
+                    }
+                    _ => Value::Real(f64::NAN),
+                };
+                let value = evaluate(&system.graph, node, &mut leaf).boolean();
+                steps.push(GuardStep::Constant(value));
+            }
+            // A number used as a condition does not pass the checks.
+            _ => steps.push(GuardStep::Constant(false)),
+        }
+    }
 }

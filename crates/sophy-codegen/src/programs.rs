@@ -2,7 +2,7 @@
 
 use sophy_field::{Code, Instruction, Layout, Operand, Program, SourceIndex};
 use sophy_ir::{Binary, Comparison, Leaf, Node, NodeId, System, Unary};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// Marks an offset into the temporaries, whose place in memory is known only when all is compiled.
 const TEMPORARY: u32 = 1 << 31;
@@ -26,9 +26,19 @@ pub(crate) struct Memory {
     /// Parametric expressions and numbers in the pool, in order.
     pub(crate) pooled: Vec<NodeId>,
     known: HashMap<NodeId, u32>,
+    /// Whether an expression is over parameters only, remembered.
+    parametric: HashMap<NodeId, bool>,
     /// The most temporaries (numbers) any program needs.
     pub(crate) temporaries: u32,
+    /// Whether switches nest deeper than [`DEEPEST`] or a program with them is longer than [`LONGEST`].
+    pub(crate) too_deep: bool,
 }
+
+/// How deep switches may nest: each level is one of recursion.
+const DEEPEST: usize = 256;
+
+/// How long a program with switches may become: what branches of branches share is written more than once.
+const LONGEST: usize = 1 << 20;
 
 impl Memory {
     pub(crate) fn new(system: &System, width: u32) -> Self {
@@ -55,7 +65,9 @@ impl Memory {
             pool: parameters + count(system.parameters.len()),
             pooled: Vec::new(),
             known: HashMap::new(),
+            parametric: HashMap::new(),
             temporaries: 0,
+            too_deep: false,
         }
     }
 
@@ -113,21 +125,11 @@ pub(crate) struct Compiler<'a> {
     /// What is computed so far, innermost branch last.
     scopes: Vec<HashMap<NodeId, Operand>>,
     used: u32,
-    /// Expressions over parameters only, remembered.
-    parametric: HashMap<NodeId, bool>,
 }
 
 impl<'a> Compiler<'a> {
     pub(crate) fn new(system: &'a System, memory: &'a mut Memory, side: Side) -> Self {
-        Compiler {
-            system,
-            memory,
-            side,
-            program: Program::default(),
-            scopes: vec![HashMap::new()],
-            used: 0,
-            parametric: HashMap::new(),
-        }
+        Compiler { system, memory, side, program: Program::default(), scopes: vec![HashMap::new()], used: 0 }
     }
 
     /// The finished program.
@@ -144,14 +146,43 @@ impl<'a> Compiler<'a> {
 
     /// Where the value of `root` stands once the program has run.
     pub(crate) fn expression(&mut self, root: NodeId) -> Operand {
-        if let Some(known) = self.scopes.iter().rev().find_map(|scope| scope.get(&root)) {
-            return *known;
+        if let Some(known) = self.known(root) {
+            return known;
         }
-        let operand = self.node(root);
+        // Operands first, in order, so that long chains need no stack; branches of a switch belong to it.
+        for id in self.unconditional(root) {
+            self.compute(id);
+        }
+        self.known(root).unwrap_or(Operand::Scalar(self.memory.parameters))
+    }
+
+    /// Computes a node whose operands are known.
+    fn compute(&mut self, id: NodeId) {
+        let operand = self.node(id);
         if let Some(scope) = self.scopes.last_mut() {
-            scope.insert(root, operand);
+            scope.insert(id, operand);
         }
-        operand
+    }
+
+    fn known(&self, node: NodeId) -> Option<Operand> {
+        self.scopes.iter().rev().find_map(|scope| scope.get(&node)).copied()
+    }
+
+    /// What must be computed for `root` whatever its switches say, operands before users, without what is
+    /// known and what lies below parametric expressions.
+    fn unconditional(&mut self, root: NodeId) -> BTreeSet<NodeId> {
+        let mut found = BTreeSet::new();
+        let mut pending = vec![root];
+        while let Some(id) = pending.pop() {
+            if self.known(id).is_some() || !found.insert(id) || self.is_parametric(id) {
+                continue;
+            }
+            match self.system.graph.node(id) {
+                Node::Select(condition, ..) => pending.push(condition),
+                _ => self.system.graph.operands(id, |operand| pending.push(operand)),
+            }
+        }
+        found
     }
 
     fn node(&mut self, id: NodeId) -> Operand {
@@ -268,8 +299,17 @@ impl<'a> Compiler<'a> {
 
     /// Only the branch taken is evaluated.
     fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> Operand {
+        // What both branches need is computed once, before.
+        let (then, otherwise) = (self.unconditional(a), self.unconditional(b));
+        for &id in then.intersection(&otherwise) {
+            self.compute(id);
+        }
         let condition = self.scalar(condition);
         let to = self.temporary();
+        if self.scopes.len() > DEEPEST || self.program.instructions.len() > LONGEST {
+            self.memory.too_deep = true;
+            return Operand::Jet(to);
+        }
         let branch = self.program.instructions.len();
         self.push(Code::JumpIfZero, 0, condition, 0);
         self.branch(a, to);
@@ -341,12 +381,22 @@ impl<'a> Compiler<'a> {
     }
 
     fn is_parametric(&mut self, node: NodeId) -> bool {
-        if let Some(&known) = self.parametric.get(&node) {
+        if let Some(&known) = self.memory.parametric.get(&node) {
             return known;
         }
-        let known = self.system.is_parametric(node);
-        self.parametric.insert(node, known);
-        known
+        for id in self.system.graph.reachable([node]) {
+            let known = match self.system.graph.node(id) {
+                Node::Leaf(leaf) => matches!(leaf, Leaf::Parameter(_)),
+                _ => {
+                    let mut all = true;
+                    let parametric = &self.memory.parametric;
+                    self.system.graph.operands(id, |operand| all &= parametric[&operand]);
+                    all
+                }
+            };
+            self.memory.parametric.insert(id, known);
+        }
+        self.memory.parametric[&node]
     }
 }
 

@@ -1,21 +1,28 @@
 use crate::arithmetic::{Binary, Unary};
 use crate::graph::{Graph, Leaf, Node, NodeId};
 
+/// What is nested deeper is shown as `…`.
+const DEEPEST: u32 = 200;
+
 impl Graph {
     /// `root` in the notation of the language, with as few parentheses as precedence allows; `name` says
     /// what leaves are called.
     pub fn display(&self, root: NodeId, name: &impl Fn(Leaf) -> String) -> String {
-        self.write(root, 0, name)
+        self.write(root, 0, 0, name)
     }
 
     /// Levels: 0 `if`, 1 `or`, 2 `and`, 3 `not`, 4 comparison, 5 sum, 6 product, 7 sign, 8 power, 9 atom.
-    fn write(&self, id: NodeId, least: u8, name: &impl Fn(Leaf) -> String) -> String {
+    fn write(&self, id: NodeId, least: u8, depth: u32, name: &impl Fn(Leaf) -> String) -> String {
+        if depth > DEEPEST {
+            return "…".to_owned();
+        }
+        let write = |operand: NodeId, least: u8| self.write(operand, least, depth + 1, name);
         let infix = |level: u8, symbol: &str, a: NodeId, b: NodeId, right: u8| {
-            let (a, b) = (self.write(a, level, name), self.write(b, right, name));
+            let (a, b) = (write(a, level), write(b, right));
             (level, format!("{a} {symbol} {b}"))
         };
         let call = |function: &str, operands: &[NodeId]| {
-            let operands: Vec<_> = operands.iter().map(|&o| self.write(o, 0, name)).collect();
+            let operands: Vec<_> = operands.iter().map(|&o| write(o, 0)).collect();
             (9, format!("{function}({})", operands.join(", ")))
         };
         let (level, text) = match self.node(id) {
@@ -25,30 +32,22 @@ impl Graph {
             }
             Node::Boolean(value) => (9, value.to_string()),
             Node::Leaf(leaf) => (9, name(leaf)),
-            Node::Unary(Unary::Negate, a) => (7, format!("-{}", self.write(a, 7, name))),
+            Node::Unary(Unary::Negate, a) => (7, format!("-{}", write(a, 7))),
             Node::Unary(function, a) => call(function.name(), &[a]),
             Node::Binary(Binary::Add, a, b) => infix(5, "+", a, b, 6),
             Node::Binary(Binary::Subtract, a, b) => infix(5, "-", a, b, 6),
             Node::Binary(Binary::Multiply, a, b) => infix(6, "*", a, b, 7),
             Node::Binary(Binary::Divide, a, b) => infix(6, "/", a, b, 7),
-            Node::Binary(Binary::Power, a, b) => {
-                (8, format!("{}^{}", self.write(a, 9, name), self.write(b, 8, name)))
-            }
+            Node::Binary(Binary::Power, a, b) => (8, format!("{}^{}", write(a, 9), write(b, 8))),
             Node::Binary(function, a, b) => call(function.name(), &[a, b]),
-            Node::IntegerPower(a, n) => (8, format!("{}^{n}", self.write(a, 9, name))),
+            Node::IntegerPower(a, n) => (8, format!("{}^{n}", write(a, 9))),
             Node::Compare(comparison, a, b) => infix(4, comparison.symbol(), a, b, 5),
-            Node::Not(a) => (3, format!("not {}", self.write(a, 3, name))),
+            Node::Not(a) => (3, format!("not {}", write(a, 3))),
             Node::And(a, b) => infix(2, "and", a, b, 3),
             Node::Or(a, b) => infix(1, "or", a, b, 2),
-            Node::Select(c, a, b) => (
-                0,
-                format!(
-                    "if {} then {} else {}",
-                    self.write(c, 1, name),
-                    self.write(a, 1, name),
-                    self.write(b, 0, name)
-                ),
-            ),
+            Node::Select(c, a, b) => {
+                (0, format!("if {} then {} else {}", write(c, 1), write(a, 1), write(b, 0)))
+            }
         };
         if level < least { format!("({text})") } else { text }
     }

@@ -1,4 +1,5 @@
 use crate::graph::{Graph, Leaf, Node, NodeId};
+use std::collections::HashMap;
 
 /// A number or a truth value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,10 +34,10 @@ impl Value {
 /// equations are compared with. Branches not taken are evaluated too, without effect on the result.
 pub fn evaluate(graph: &Graph, root: NodeId, leaf: &mut impl FnMut(Leaf) -> Value) -> Value {
     let order = graph.reachable([root]);
-    let mut values = vec![Value::Real(f64::NAN); root.position() + 1];
+    let mut values: HashMap<NodeId, Value> = HashMap::with_capacity(order.len());
     for id in order {
-        let get = |operand: NodeId| values[operand.position()];
-        values[id.position()] = match graph.node(id) {
+        let get = |operand: NodeId| values[&operand];
+        let value = match graph.node(id) {
             Node::Number(bits) => Value::Real(f64::from_bits(bits)),
             Node::Boolean(b) => Value::Boolean(b),
             Node::Leaf(reference) => leaf(reference),
@@ -55,6 +56,7 @@ pub fn evaluate(graph: &Graph, root: NodeId, leaf: &mut impl FnMut(Leaf) -> Valu
                 }
             }
         };
+        values.insert(id, value);
     }
-    values[root.position()]
+    values[&root]
 }

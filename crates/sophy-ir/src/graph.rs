@@ -1,7 +1,7 @@
 use crate::arithmetic::{Binary, Comparison, Unary, integer_power};
 use crate::model::VariableId;
 use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A node of a [`Graph`]. Equal expressions of one graph have equal ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -246,16 +246,19 @@ impl Graph {
         }
     }
 
-    /// All nodes that `roots` need, operands before users, each once.
+    /// All nodes that `roots` need, operands before users, each once. The work is that of what is found, not
+    /// of the whole graph.
     pub fn reachable(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
-        let mut seen = vec![false; self.nodes.len()];
+        let mut seen: HashSet<NodeId> = HashSet::new();
         let mut pending: Vec<NodeId> = roots.into_iter().collect();
         while let Some(id) = pending.pop() {
-            if !std::mem::replace(&mut seen[id.position()], true) {
+            if seen.insert(id) {
                 self.operands(id, |operand| pending.push(operand));
             }
         }
-        (0..self.nodes.len()).filter(|&i| seen[i]).map(|i| NodeId(i as u32)).collect()
+        let mut found: Vec<NodeId> = seen.into_iter().collect();
+        found.sort_unstable();
+        found
     }
 
     /// Copies `root` of `from` into this graph, leaves replaced by `replace` (their nodes in this graph).

@@ -9,7 +9,8 @@ use std::collections::HashMap;
 /// Lifts the kinks of rates, algebraic variables and guards. Outputs and resets keep theirs: they are read
 /// at instants only.
 pub fn lift_kinks(system: &mut System) {
-    let mut lifter = Lifter { lifted: HashMap::new(), watches: HashMap::new(), system };
+    let mut lifter =
+        Lifter { lifted: HashMap::new(), parametric: HashMap::new(), watches: HashMap::new(), system };
     lifter.system();
 }
 
@@ -23,6 +24,8 @@ enum Key {
 struct Lifter<'a> {
     system: &'a mut System,
     lifted: HashMap<NodeId, NodeId>,
+    /// Whether a node depends on parameters and numbers only.
+    parametric: HashMap<NodeId, bool>,
     watches: HashMap<Key, WatchIndex>,
 }
 
@@ -64,7 +67,7 @@ impl Lifter<'_> {
     }
 
     fn node(&mut self, id: NodeId) -> NodeId {
-        if self.system.is_parametric(id) {
+        if self.is_parametric(id) {
             return id;
         }
         let of = |lifter: &Self, operand: NodeId| lifter.lifted[&operand];
@@ -103,6 +106,20 @@ impl Lifter<'_> {
                 self.system.graph.rebuild(mapped)
             }
         }
+    }
+
+    /// Asked of operands before users.
+    fn is_parametric(&mut self, id: NodeId) -> bool {
+        let known = match self.system.graph.node(id) {
+            Node::Leaf(leaf) => matches!(leaf, Leaf::Parameter(_)),
+            _ => {
+                let mut all = true;
+                self.system.graph.operands(id, |operand| all &= self.parametric[&operand]);
+                all
+            }
+        };
+        self.parametric.insert(id, known);
+        known
     }
 
     fn compare(&mut self, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {

@@ -26,8 +26,8 @@ pub use world::FileWorld;
 
 pub use sophy_analysis::Declarations;
 pub use sophy_diagnostics::{
-    Code, Diagnostic, Diagnostics, Label, MemoryWorld, Severity, Sources, Span, Style, World, WorldError,
-    closest, render,
+    Code, Diagnostic, Diagnostics, Label, MemoryWorld, Severity, SourceId, Sources, Span, Style, World,
+    WorldError, closest, render,
 };
 pub use sophy_files::{
     FileError, PlotOptions, plot, read_columns, read_event_labels, read_events, read_table, write_table,

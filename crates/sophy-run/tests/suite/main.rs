@@ -3,8 +3,11 @@
 
 mod convergence;
 mod crossings;
+mod equations;
 mod failures;
 mod hopper;
+mod inputs;
+mod limits;
 mod promises;
 mod simultaneous;
 mod support;

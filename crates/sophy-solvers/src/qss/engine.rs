@@ -109,7 +109,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &entry in e.entries(&e.influence[i]) {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
         }
-        if self.records[i].tx != t {
+        // Its own rate, if it was among them, has scheduled it already.
+        if self.agenda.time(i as u32) <= t {
             self.schedule(i, t);
         }
         Ok(())
