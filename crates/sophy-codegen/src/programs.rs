@@ -299,17 +299,18 @@ impl<'a> Compiler<'a> {
 
     /// Only the branch taken is evaluated.
     fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> Operand {
+        let to = self.temporary();
+        let fits = self.scopes.len() <= DEEPEST && self.program.instructions.len() <= LONGEST;
+        self.memory.too_deep |= !fits;
+        if self.memory.too_deep {
+            return Operand::Jet(to);
+        }
         // What both branches need is computed once, before.
         let (then, otherwise) = (self.unconditional(a), self.unconditional(b));
         for &id in then.intersection(&otherwise) {
             self.compute(id);
         }
         let condition = self.scalar(condition);
-        let to = self.temporary();
-        if self.scopes.len() > DEEPEST || self.program.instructions.len() > LONGEST {
-            self.memory.too_deep = true;
-            return Operand::Jet(to);
-        }
         let branch = self.program.instructions.len();
         self.push(Code::JumpIfZero, 0, condition, 0);
         self.branch(a, to);
