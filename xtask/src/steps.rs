@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 /// Formatting, lints and all tests; ends with the time of each part.
 pub(crate) fn ci() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
+    cargo(&["fmt", "--manifest-path", "benches/Cargo.toml", "--check"])?;
     let lints = cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
     // The benches, a workspace of their own, must not rot.
     let benches = ["clippy", "--manifest-path", "benches/Cargo.toml", "--", "-D", "warnings"];
@@ -30,14 +31,16 @@ pub(crate) fn say(message: &str) {
     let _ = writeln!(std::io::stderr(), "{message}");
 }
 
-/// Runs cargo in the root of the repository.
+/// Runs cargo in the root of the repository; the benches share its target folder.
 fn cargo(arguments: &[&str]) -> Result<Duration, String> {
     let line = format!("cargo {}", arguments.join(" "));
     say(&format!("$ {line}"));
     let begin = Instant::now();
     let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(program).args(arguments).current_dir(root()).status();
-    match status {
+    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(root()).env("CARGO_TARGET_DIR", target);
+    match command.status() {
         Ok(status) if status.success() => Ok(begin.elapsed()),
         Ok(_) => Err(format!("`{line}` failed")),
         Err(error) => Err(format!("`{line}` cannot be run: {error}")),

@@ -125,10 +125,12 @@ fn the_readme_gives_the_commands_that_are_checked() {
     let text = fs::read_to_string(root().join("README.md")).unwrap();
     let mut inside = false;
     let mut commands = Vec::new();
-    for line in text.lines().map(str::trim) {
-        if line.starts_with("```") {
-            inside = !inside;
-        } else if inside && let Some(command) = line.trim_start_matches("$ ").strip_prefix("cargo ") {
+    for line in text.lines() {
+        inside ^= line.starts_with("```");
+        let code = line.trim().trim_start_matches("$ ");
+        if (inside || line.starts_with("    "))
+            && let Some(command) = code.strip_prefix("cargo ")
+        {
             commands.push(command.split(" #").next().unwrap_or(command).trim());
         }
     }

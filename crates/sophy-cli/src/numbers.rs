@@ -5,12 +5,16 @@ pub(crate) fn brief(value: f64) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
+    if value.abs() >= 1e15 {
+        return format!("{value:.2e}");
+    }
     if value.abs() >= 99.95 {
-        return if value.abs() < 1e15 {
-            grouped(value.abs().round() as u64, value < 0.0)
-        } else {
-            format!("{value:.2e}")
-        };
+        // Three digits count, the others are zeros.
+        let mut unit = 1.0;
+        while value.abs() / unit >= 999.5 {
+            unit *= 10.0;
+        }
+        return grouped(((value.abs() / unit).round() * unit) as u64, value < 0.0);
     }
     let decimals = match value.abs() {
         x if x >= 9.995 => 1,
@@ -49,7 +53,7 @@ mod tests {
     #[test]
     fn numbers_are_short_and_grouped() {
         let texts: Vec<String> = [0.123456, 1.2345, 12.345, 123.45, 123456.7, 99.96].map(brief).to_vec();
-        assert_eq!(texts, ["0.123", "1.23", "12.3", "123", "123 457", "100"]);
+        assert_eq!(texts, ["0.123", "1.23", "12.3", "123", "123 000", "100"]);
         assert_eq!(plural(1, "row"), "1 row");
         assert_eq!(plural(1234567, "row"), "1 234 567 rows");
     }

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 pub struct Finished {
     /// How it ended, and what it took.
     pub report: Report,
-    /// Component (empty for a model of one nameless component) and location of each automaton at the end.
+    /// Component (empty for a model of one nameless component) and location at the end of each automaton that has several.
     pub locations: Vec<(String, String)>,
     /// The files written, in the order asked for.
     pub files: Vec<PathBuf>,
@@ -215,6 +215,7 @@ fn is_picture(path: &Path) -> bool {
 fn locations(run: &Run) -> Vec<(String, String)> {
     let automata = run.system().automata.iter().enumerate();
     automata
+        .filter(|(_, automaton)| automaton.locations.len() > 1)
         .map(|(position, automaton)| {
             let location = run.location(sophy_field::AutomatonIndex::new(position));
             (automaton.name.clone(), automaton.locations[location.position()].name.clone())

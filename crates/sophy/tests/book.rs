@@ -68,8 +68,6 @@ fn experiments_fit_their_models() {
             }
         }
     }
-    // What the pages feed the battery with.
-    fs::write(folder.join("sun.csv"), "time,Pin\n0,30\n6000,30\n").unwrap();
     let mut checked = 0;
     for block in blocks().iter().filter(|block| words(block) == ["toml", "experiment"]) {
         let path = folder.join("experiment.toml");

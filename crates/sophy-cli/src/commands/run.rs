@@ -82,13 +82,9 @@ fn summary(model: &Model, start: f64, finished: &Finished) -> String {
             component => format!("{component} in {location}"),
         })
         .collect();
-    let mut text = format!(
-        "{}: {how} t = {} s after {}, in {}\n",
-        model.name,
-        report.time,
-        plural(report.statistics.hybrid.transitions, "transition"),
-        places.join(", "),
-    );
+    let place = if places.is_empty() { String::new() } else { format!(", in {}", places.join(", ")) };
+    let transitions = plural(report.statistics.hybrid.transitions, "transition");
+    let mut text = format!("{}: {how} t = {} s after {transitions}{place}\n", model.name, report.time);
     text.push_str(&format!(
         "  {} in {:.2?}, {} × real time",
         plural(report.rows, "row"),
@@ -118,7 +114,7 @@ fn statistics(finished: &Finished, backend: &str) -> String {
         ("crossings predicted", engine.predictions),
         ("crossings located", engine.crossings),
         ("transitions", hybrid.transitions),
-        ("instants of transitions", hybrid.instants),
+        ("instants of change", hybrid.instants),
         ("events nobody waited for", hybrid.unused_events),
     ];
     let lines: String =

@@ -203,7 +203,8 @@ fn guards_on_inputs_switch_at_breakpoints_and_on_lines() {
             let found: Vec<f64> = result.events.iter().map(|e| e.time).collect();
             assert_eq!(found, times, "{method:?} {interpolation:?}");
             let x = result.trajectory.value(0, 5.0, Side::Right);
-            let slack = if method == Method::Qss1 { 5e-3 } else { 1e-9 };
+            // QSS1 holds rates that time bends, for about a quantum each.
+            let slack = if method == Method::Qss1 { 2e-2 } else { 1e-9 };
             assert!((x - end).abs() < slack, "{method:?} {interpolation:?}: {x} for {end}");
         }
     }

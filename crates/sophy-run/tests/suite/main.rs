@@ -1,12 +1,15 @@
 //! Runs of whole systems against reference data and properties.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may panic
 
+mod automata;
 mod convergence;
 mod crossings;
 mod equations;
 mod failures;
+mod guards;
 mod hopper;
 mod inputs;
+mod jacobian;
 mod limits;
 mod promises;
 mod simultaneous;

@@ -122,15 +122,20 @@ impl<const ORDER: usize> Qss<ORDER> {
             return self.predict(e, watch, t);
         }
         let c = self.difference(e, watch, t)?;
-        let record = &mut self.watches[watch.position()];
-        let sign = match (due, record.sign) {
-            (Due::Root, Sign::Zero) | (Due::Joint, _) | (Due::Search, _) => Sign::after(&c),
-            (Due::Root, sign) => {
-                // The difference is zero here, by what was located: the residue of rounding is taken off.
-                record.bias += c[0];
-                sign.opposite()
-            }
+        let decided = self.watches[watch.position()].sign;
+        let sign = if due == Due::Root && decided != Sign::Zero {
+            // The difference is zero here, by what was located: the residue of rounding is taken off.
+            self.watches[watch.position()].bias += c[0];
+            decided.opposite()
+        } else {
+            self.sign_after(e, watch, t, &c)?
         };
+        if sign == decided {
+            // The search found noise of rounding about zero: the difference counts as zero, and the search
+            // goes on behind it.
+            self.watches[watch.position()].bias += c[0];
+            return self.predict(e, watch, t);
+        }
         self.flip(e, watch, sign, due == Due::Root, t, journal)?;
         self.predict(e, watch, t)
     }
@@ -149,7 +154,10 @@ impl<const ORDER: usize> Qss<ORDER> {
                 continue;
             }
             let sign = match fresh {
-                Fresh::No => Sign::after(&self.difference(e, watch, t)?),
+                Fresh::No => {
+                    let c = self.difference(e, watch, t)?;
+                    self.sign_after(e, watch, t, &c)?
+                }
                 fresh => self.decide(e, watch, t, fresh)?,
             };
             if fresh == Fresh::Armed {
@@ -201,7 +209,21 @@ impl<const ORDER: usize> Qss<ORDER> {
         } else {
             record.bias = 0.0;
         }
-        Ok(Sign::after(&c))
+        self.sign_after(e, watch, t, &c)
+    }
+
+    /// The sign just right of `t`: the first coefficient that is not zero decides. Where all that the engine
+    /// carries vanish, a watch that is not affine may still leave zero at a higher order: enclosures decide.
+    fn sign_after(&mut self, e: &Equations, watch: WatchIndex, t: f64, c: &[f64; 3]) -> Result<Sign, Fault> {
+        if *c != [0.0; 3] || e.watches[watch.position()].affine {
+            return Ok(Sign::after(c));
+        }
+        let start = Start { sign: Sign::Zero, on_surface: true };
+        match self.search_from(e, watch, t, t + self.settings.window, start) {
+            Search::Crossing(time) => Ok(Sign::of(self.difference(e, watch, time)?[0])),
+            Search::None => Ok(Sign::Zero),
+            Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
+        }
     }
 
     /// A watch takes another sign: its truths change, and what reads them is evaluated.
@@ -275,7 +297,8 @@ impl<const ORDER: usize> Qss<ORDER> {
                 let raw = self.raw_difference(e, other, t)?[0];
                 let takes_over = located && other != watch;
                 self.watches[index].bias = if takes_over { raw } else { 0.0 };
-                self.watches[index].sign = Sign::after(&self.difference(e, other, t)?);
+                let c = self.difference(e, other, t)?;
+                self.watches[index].sign = self.sign_after(e, other, t, &c)?;
                 self.mark(other);
             }
         }
@@ -318,9 +341,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         on_surface: bool,
     ) -> Result<(f64, Due), Fault> {
-        let formula = &e.watches[watch.position()].formula;
-        let record = self.watches[watch.position()];
-        let sources = e.sources(&formula.sources);
+        let sources = e.sources(&e.watches[watch.position()].formula.sources);
         // Segments change with the next step of a source: no need to look much further.
         let next = sources
             .iter()
@@ -329,7 +350,18 @@ impl<const ORDER: usize> Qss<ORDER> {
             .fold(f64::INFINITY, f64::min);
         let far = t + self.settings.window;
         let end = if next > t && next < far { next } else { far };
-        let bias = Interval::point(record.bias);
+        let start = Start { sign: self.watches[watch.position()].sign, on_surface };
+        match self.search_from(e, watch, t, end, start) {
+            Search::Crossing(time) => Ok((time, if time > t { Due::Root } else { Due::Joint })),
+            Search::None => Ok((end, Due::Search)),
+            Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
+        }
+    }
+
+    fn search_from(&mut self, e: &Equations, watch: WatchIndex, t: f64, end: f64, start: Start) -> Search {
+        let formula = &e.watches[watch.position()].formula;
+        let sources = e.sources(&formula.sources);
+        let bias = Interval::point(self.watches[watch.position()].bias);
         let (records, enclosed, locations) = (&self.records, &mut self.enclosed, &self.locations);
         let mut enclose = |times: Interval| {
             for &source in sources {
@@ -341,12 +373,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             jet[0] = jet[0] - bias;
             jet
         };
-        let start = Start { sign: record.sign, on_surface };
-        match first_crossing(&mut enclose, t, end, start, self.settings.search_budget) {
-            Search::Crossing(time) => Ok((time, if time > t { Due::Root } else { Due::Joint })),
-            Search::None => Ok((end, Due::Search)),
-            Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
-        }
+        first_crossing(&mut enclose, t, end, start, self.settings.search_budget)
     }
 
     /// Taylor coefficients of the watched difference at `t`, the bias taken off.

@@ -1,0 +1,9 @@
+//! The `sophy` command as a user meets it: exit codes, messages, files.
+
+#![allow(clippy::expect_used, clippy::panic, reason = "a test stops at the first surprise")]
+
+#[cfg(unix)]
+mod endings;
+mod messages;
+mod results;
+mod support;
