@@ -147,6 +147,9 @@ pub(crate) struct Run {
     /// Record every micro-step of an instant, with a column `step`
     #[arg(long, help_heading = "Results")]
     pub(crate) microsteps: bool,
+    /// Also log the kinks crossed by `abs`, `min`, `if`, … in equations
+    #[arg(long, help_heading = "Results")]
+    pub(crate) events_all: bool,
     /// Write the result: .csv, .arrow or .parquet; `-` is CSV on stdout (repeatable)
     #[arg(long, short, visible_alias = "output-file", value_name = "FILE", help_heading = "Results")]
     pub(crate) output: Vec<PathBuf>,

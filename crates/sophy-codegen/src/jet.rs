@@ -249,10 +249,21 @@ pub(crate) fn atan2<T: Scalar, const N: usize>(y: Jet<T, N>, x: Jet<T, N>) -> Je
     angle
 }
 
-/// aᵖ with a constant exponent: a·c′ = p·a′·c.
+/// aᵖ with a constant exponent: a·c′ = p·a′·c; at a = 0, where that divides by zero, Taylor's formula.
 pub(crate) fn power_constant<T: Scalar, const N: usize>(a: Jet<T, N>, p: T) -> Jet<T, N> {
     let mut c = zeros();
     c[0] = a[0].pow(p);
+    if a[0].equal(T::of(0.0)) {
+        let slope = p * a[0].pow(p - T::of(1.0));
+        let factor = p * (p - T::of(1.0)) / T::of(2.0);
+        let flat = factor.equal(T::of(0.0));
+        let curvature = if flat { factor } else { factor * a[0].pow(p - T::of(2.0)) };
+        for k in 1..N {
+            let bend = if k == 2 { curvature * a[1].square() } else { T::of(0.0) };
+            c[k] = slope * a[k] + bend;
+        }
+        return c;
+    }
     for k in 1..N {
         let mut sum = T::of(0.0);
         for i in 1..=k {
@@ -284,6 +295,13 @@ mod tests {
         assert!((c[0] - along(0.0)).abs() <= 1e-15 * along(0.0).abs().max(1.0), "{c:?}");
         assert!((c[1] - first).abs() < 1e-6 * (1.0 + first.abs()), "{c:?} {first}");
         assert!((c[2] - second).abs() < 1e-5 * (1.0 + second.abs()), "{c:?} {second}");
+    }
+
+    #[test]
+    fn powers_have_derivatives_at_zero() {
+        assert_eq!(power_constant([0.0, 2.0, 3.0], 2.5), [0.0, 0.0, 0.0]);
+        assert_eq!(power_constant([0.0, 2.0], 1.5), [0.0, 0.0]);
+        assert_eq!(power_constant([0.0, 2.0, 3.0], 1.0), [0.0, 2.0, 3.0]);
     }
 
     #[test]

@@ -104,7 +104,13 @@ impl Unary {
             Unary::Ln => libm::log(x),
             Unary::Log10 => libm::log10(x),
             Unary::Sqrt => x.sqrt(),
-            Unary::Abs => x.abs(),
+            Unary::Abs => {
+                if x < 0.0 {
+                    -x
+                } else {
+                    x
+                }
+            }
             Unary::Sign => sign(x),
             Unary::Floor => x.floor(),
         }
@@ -200,15 +206,17 @@ pub fn acosh(x: f64) -> f64 {
     if x < 1.0 { f64::NAN } else { libm::acosh(x) }
 }
 
-/// −1, 0 or 1; NaN stays NaN.
+/// −1, 0 or 1 (+0 for both zeros); NaN stays NaN.
 #[inline]
 pub fn sign(x: f64) -> f64 {
     if x > 0.0 {
         1.0
     } else if x < 0.0 {
         -1.0
+    } else if x.is_nan() {
+        x
     } else {
-        x * 0.0 + x
+        0.0
     }
 }
 

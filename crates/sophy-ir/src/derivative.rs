@@ -45,6 +45,7 @@ impl Graph {
                 let da = rate(a)?;
                 self.unary_rate(function, id, a, da)
             }
+            Node::IntegerPower(_, 0) => None,
             Node::IntegerPower(a, n) => {
                 let da = rate(a)?;
                 let lower = self.integer_power(a, n - 1);

@@ -1,7 +1,6 @@
 //! `Model` → flat `System`, one file per pass.
 //!
-//! [`lower`] runs the [`PIPELINE`]: flatten, then lift the kinks. The verifier runs after each pass in debug
-//! builds and tests.
+//! [`lower`] flattens, runs the [`PIPELINE`] (at present: lift the kinks) and verifies what came out.
 
 mod flatten;
 mod lift;

@@ -8,6 +8,8 @@
 //! - `expression`: lines `text => value` or `text => error CODE`, evaluated in [`expression_model`].
 //! - `toml experiment`: an experiment beside the examples' files; it must fit its model.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
+
 use sophy::{
     Experiment, FileWorld, Loaded, MemoryWorld, Style, load_experiment, load_model, render, simulate,
 };

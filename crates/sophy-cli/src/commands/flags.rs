@@ -120,6 +120,7 @@ fn results(run: &Run, line: &CommandLine, setup: &mut Setup) {
         setup.said_at("record.every", line.flag("--every"));
     }
     setup.experiment.microsteps |= run.microsteps;
+    setup.experiment.all_events |= run.events_all;
     if !run.output.is_empty() {
         setup.outputs.results.clone_from(&run.output);
     }

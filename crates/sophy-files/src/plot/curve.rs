@@ -115,15 +115,22 @@ pub(super) struct Strokes {
 /// Jumps shorter than this many pixels are drawn through.
 const VISIBLE_JUMP: f64 = 0.4;
 
+/// A curve of more jumps than this is a staircase (a held sample), and all of them are drawn through.
+const MOST_JUMPS: usize = 60;
+
 pub(super) fn strokes(points: &[Point]) -> Strokes {
     let mut strokes = Strokes::default();
     let decimals = if points.len() > 4000 { 1 } else { 2 };
     let mut previous: Option<Point> = None;
+    let staircase = points.iter().filter(|point| point.pen == Pen::Jump).count() > MOST_JUMPS;
     for (i, &point) in points.iter().enumerate() {
         let jump = point.pen == Pen::Jump
+            && !staircase
             && previous.is_some_and(|before| (point.y - before.y).abs() >= VISIBLE_JUMP);
         let starts = point.pen == Pen::Gap || jump || previous.is_none();
-        let ends = points.get(i + 1).is_none_or(|next| next.pen != Pen::Line);
+        let ends = points
+            .get(i + 1)
+            .is_none_or(|next| next.pen == Pen::Gap || (next.pen == Pen::Jump && !staircase));
         if let (true, Some(before)) = (jump, previous) {
             let _ = write!(
                 strokes.jumps,

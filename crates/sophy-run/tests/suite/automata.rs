@@ -177,8 +177,8 @@ impl Slow<'_> {
         loop {
             slow.react(now, &mut log)?;
             let mut delay = stop + 1 - now;
-            for a in 0..plans.len() {
-                for edge in &plans[a].locations[slow.location[a]].1 {
+            for (a, plan) in plans.iter().enumerate() {
+                for edge in &plan.locations[slow.location[a]].1 {
                     let Some((next, rest)) = slow.next(a, edge) else { continue };
                     if rest != 0 {
                         return None;
@@ -190,8 +190,8 @@ impl Slow<'_> {
             if now > stop {
                 return Some(log);
             }
-            for a in 0..plans.len() {
-                let rates = plans[a].locations[slow.location[a]].0;
+            for (a, plan) in plans.iter().enumerate() {
+                let rates = plan.locations[slow.location[a]].0;
                 for (x, rate) in slow.x[a].iter_mut().zip(rates) {
                     *x += rate * delay;
                 }

@@ -14,7 +14,8 @@ const RUN: &[&str] = &["start", "stop", "seed", "input_events", "initial_locatio
 const ENGINE: &[&str] = &["method", "quantum", "tolerance"];
 const QUANTUM: &[&str] = &["absolute", "relative"];
 const INPUT: &[&str] = &["file", "column", "interpolate", "after"];
-const RECORD: &[&str] = &["variables", "every", "microsteps", "output", "events", "plot", "phase"];
+const RECORD: &[&str] =
+    &["variables", "every", "microsteps", "events_all", "output", "events", "plot", "phase"];
 
 /// Reads the text of an experiment whose paths are relative to `folder`: the setup as far as it is right, the
 /// path of the model, and all mistakes.
@@ -261,6 +262,7 @@ impl Reader<'_> {
             }
             "every" => self.setup.experiment.every = self.values.number(value),
             "microsteps" => set(&mut self.setup.experiment.microsteps, self.values.truth(value)),
+            "events_all" => set(&mut self.setup.experiment.all_events, self.values.truth(value)),
             "output" => self.setup.outputs.results = self.paths(value),
             "plot" => self.setup.outputs.plots = self.paths(value),
             "events" => {

@@ -1,0 +1,59 @@
+//! Every example runs as it stands and gives what its README promises, compared with reference data.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may panic
+
+use sophy::{FileWorld, Loaded, Simulation, load_experiment, simulate};
+use sophy_testkit::{Reference, repository};
+
+fn run(experiment: &str) -> Simulation {
+    let path = repository().join("examples").join(experiment);
+    let loaded: Loaded = load_experiment(&FileWorld, &path);
+    let messages = loaded.messages();
+    assert!(messages.is_empty(), "{experiment}: {messages:?}");
+    let model = loaded.model.expect("a model");
+    simulate(&model, &loaded.setup.experiment).unwrap_or_else(|error| panic!("{experiment}: {error:?}"))
+}
+
+fn worst(times: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(times.len(), expected.len());
+    times.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_hopper_hops_and_with_half_the_thrust_does_not() {
+    for (experiment, data) in
+        [("hopper/hopper.toml", "hopper/tau40_events.csv"), ("hopper/tau20.toml", "hopper/tau20_events.csv")]
+    {
+        let simulation = run(experiment);
+        let times: Vec<f64> = simulation.events.iter().map(|e| e.time).collect();
+        assert!(worst(&times, &Reference::read(data).numbers("t")) < 1e-3, "{experiment}");
+    }
+    assert_eq!(run("hopper/tau20.toml").events.last().unwrap().to, "Decompression");
+}
+
+#[test]
+fn the_battery_visits_its_locations_in_time() {
+    let simulation = run("battery/battery.toml");
+    let reference = Reference::read("power-system/text_events.csv");
+    let to: Vec<&str> = simulation.events.iter().map(|e| e.to.as_str()).collect();
+    assert_eq!(to, reference.text("to"));
+    let times: Vec<f64> = simulation.events.iter().map(|e| e.time).collect();
+    assert!(worst(&times, &reference.numbers("t")) < 0.02);
+    let volts = simulation.table.real("V").unwrap();
+    assert!((volts[0] - 23.83).abs() < 1e-12);
+}
+
+#[test]
+fn the_two_systems_of_chapter_3_follow_their_closed_solutions() {
+    for (experiment, data, bound) in [
+        ("oscillator/oscillator.toml", "oscillator/reference.csv", 0.4),
+        ("two-timescale/two-timescale.toml", "two-timescale/reference.csv", 3e-3),
+    ] {
+        let simulation = run(experiment);
+        let reference = Reference::read(data);
+        let (times, x1) = (reference.numbers("t"), reference.numbers("x1"));
+        let value = |t: f64| simulation.trajectory.value(0, t, sophy::Side::Right);
+        let error = times.iter().zip(x1).map(|(t, x)| (value(*t) - x).abs()).fold(0.0, f64::max);
+        assert!(error < bound, "{experiment}: {error:e}");
+        assert!(simulation.events.is_empty());
+    }
+}
