@@ -1,7 +1,7 @@
 //! Text forms of what the stages between file and run make, for bug reports and the curious.
 
 use sophy_analysis::{Declarations, EquationDeclaration, VariableDeclaration};
-use sophy_ir::{Component, ComponentIndex, Equation, Leaf, Model, NodeId, Trigger, VariableId, VariableKind};
+use sophy_ir::Model;
 use std::fmt::Write;
 
 /// What a file declares, nothing resolved yet.
@@ -42,84 +42,7 @@ pub fn declarations_text(declarations: &Declarations) -> String {
 
 /// A checked model: names are resolved, expressions are graphs.
 pub fn model_text(model: &Model) -> String {
-    let mut out = Lines::default();
-    out.line(0, format!("model {}", model.name));
-    for (position, component) in model.components.iter().enumerate() {
-        out.line(
-            1,
-            format!("component {}", if component.name.is_empty() { "(nameless)" } else { &component.name }),
-        );
-        variables(model, ComponentIndex(position as u32), &mut out);
-        locations(model, component, &mut out);
-    }
-    for connection in &model.connections {
-        let (from, to) = (model.full_name(connection.from), model.full_name(connection.to));
-        out.line(1, format!("connect {from} -> {to}"));
-    }
-    let port = |port: &sophy_ir::Port| {
-        let component = model.components.get(port.component.0 as usize);
-        format!("{}.{}", component.map_or("?", |component| &component.name), port.label)
-    };
-    for connection in &model.event_connections {
-        out.line(1, format!("connect event {} -> {}", port(&connection.from), port(&connection.to)));
-    }
-    out.0
-}
-
-fn variables(model: &Model, component: ComponentIndex, out: &mut Lines) {
-    for id in model.variables_of(component, |_| true) {
-        let variable = model.variable(id);
-        let unit = variable.unit.as_ref().map(|unit| format!(" {unit:?}")).unwrap_or_default();
-        let name = &variable.name;
-        out.line(
-            2,
-            match variable.kind {
-                VariableKind::Parameter(value) => format!("parameter {name} = {}{unit}", text(model, value)),
-                VariableKind::State(Some(initial)) => {
-                    format!("state {name} := {}{unit}", text(model, initial))
-                }
-                VariableKind::State(None) => format!("state {name}{unit}"),
-                VariableKind::Input => format!("input {name}{unit}"),
-                VariableKind::Output => format!("output {name}{unit}"),
-            },
-        );
-    }
-}
-
-fn locations(model: &Model, component: &Component, out: &mut Lines) {
-    let name = |variable: VariableId| &model.variable(variable).name;
-    let equation =
-        |e: &Equation, left: &str| format!("{left}{} = {}", name(e.variable), text(model, e.right));
-    for (position, location) in component.locations.iter().enumerate() {
-        let initial = if position == component.initial_location { " (initial)" } else { "" };
-        out.line(2, format!("location {}{initial}", location.name));
-        location.dynamics.iter().for_each(|e| out.line(3, equation(e, "der ")));
-        location.outputs.iter().for_each(|e| out.line(3, equation(e, "output ")));
-        for transition in &location.transitions {
-            let trigger = match &transition.trigger {
-                Trigger::When(guard) => format!("when {}", text(model, *guard)),
-                Trigger::On { events, guard } => {
-                    let guard =
-                        guard.map(|guard| format!(" when {}", text(model, guard))).unwrap_or_default();
-                    format!("on {}{guard}", events.join(", "))
-                }
-            };
-            let to = component.locations.get(transition.destination).map_or("?", |location| &location.name);
-            out.line(3, format!("transition {:?} {trigger} -> {to}", transition.name));
-            for reset in &transition.resets {
-                out.line(4, format!("{} := {}", name(reset.state), text(model, reset.right)));
-            }
-            transition.emits.iter().for_each(|label| out.line(4, format!("emit {label}")));
-        }
-    }
-}
-
-fn text(model: &Model, node: NodeId) -> String {
-    model.graph.display(node, &|leaf| match leaf {
-        Leaf::Variable(id) => model.full_name(id),
-        Leaf::Time => "time".to_owned(),
-        other => format!("{other:?}"),
-    })
+    model.to_string()
 }
 
 fn declaration(kind: &str, variable: &VariableDeclaration) -> String {

@@ -112,3 +112,21 @@ fn all_mistakes_of_an_experiment_are_named_with_a_way_out() {
     assert!(errors.iter().any(|e| e.help.as_deref() == Some("did you mean `tau`?")), "{errors:?}");
     assert!(errors.iter().any(|e| e.help.as_deref() == Some("did you mean `ydot`?")), "{errors:?}");
 }
+
+/// A run of no length has a start, its micro-steps, and an end.
+#[test]
+fn a_run_of_no_length_ends_at_once() {
+    let mut b = Build::default();
+    b.component("");
+    let x = b.state("x", 1.0);
+    let read = b.read(x);
+    let (here, there) = (b.location("here"), b.location("there"));
+    let sine = b.unary(Unary::Sin, read);
+    b.rate(here, x, sine);
+    b.rate(there, x, sine);
+    let half = b.number(0.5);
+    let over = b.greater(sine, half);
+    b.when(here, "over", over, there, &[]);
+    let result = try_run(&b.model, &to(0.0, 1e-3)).expect("runs");
+    assert_eq!((result.events.len(), result.report.time), (1, 0.0));
+}

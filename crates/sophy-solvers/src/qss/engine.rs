@@ -87,14 +87,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// A state's quantised trajectory has come to the edge of its band (algorithm 3.1).
     #[inline]
     fn step(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Fault> {
-        if self.records[i].tq == t {
-            self.repeats[i] += 1;
-            if self.repeats[i] > MOST_REPEATS {
-                return Err(Fault::Resolution { state: StateIndex::new(i), time: t });
-            }
-        } else {
-            self.repeats[i] = 0;
-        }
+        self.count_repeats(i, self.records[i].tq, t)?;
         // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
         let record = &mut self.records[i];
         let x = record.x_at(t);
@@ -112,6 +105,20 @@ impl<const ORDER: usize> Qss<ORDER> {
         // Its own rate, if it was among them, has scheduled it already.
         if self.agenda.time(i as u32) <= t {
             self.schedule(i, t);
+        }
+        Ok(())
+    }
+
+    /// A state may be scheduled again at the instant `before` of its last turn, but not for ever.
+    #[inline]
+    fn count_repeats(&mut self, i: usize, before: f64, t: f64) -> Result<(), Fault> {
+        if before < t {
+            self.repeats[i] = 0;
+            return Ok(());
+        }
+        self.repeats[i] += 1;
+        if self.repeats[i] > MOST_REPEATS {
+            return Err(Fault::Resolution { state: StateIndex::new(i), time: t });
         }
         Ok(())
     }
@@ -245,6 +252,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         if !self.bends[i].due {
             return self.step(e, i, t, journal);
         }
+        self.count_repeats(i, self.records[i].tx, t)?;
         self.statistics.refreshes += 1;
         self.refreshed = i;
         for &entry in e.entries(&e.own[i]) {

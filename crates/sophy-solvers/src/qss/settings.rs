@@ -42,8 +42,9 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Usual settings for a run of `span` s.
+    /// Usual settings for a run of `span` s; a run of no length counts as one of 1 s.
     pub fn for_span(quanta: Vec<Quantum>, span: f64) -> Self {
+        let span = if span > 0.0 { span } else { 1.0 };
         Settings { quanta, trust: span / 100.0, window: span / 16.0, search_budget: 20_000 }
     }
 }
