@@ -61,13 +61,13 @@ impl From<LogicError> for CompileError {
 /// QSS2); `knobs` replace parameter values.
 ///
 /// # Errors
-/// [`CompileError`] when a parameter is not finite or a guard is too deep.
+/// [`CompileError`] when a parameter is not finite, or a guard or switch nests too deep.
 pub fn compile(system: &System, knobs: &Parameters, order: u32) -> Result<Compiled, CompileError> {
     let parameters = parameter_values(system, knobs)?;
     let mut system = system.clone();
     let bends = bends(&mut system, order);
     let system = &system;
-    let mut gather = Gather::new(system, order + 1, bends.clone());
+    let mut gather = Gather::new(system, order + 1, bends);
 
     let source_leaves: Vec<Leaf> = (0..system.states.len())
         .map(|i| Leaf::State(StateIndex::new(i)))
@@ -112,7 +112,6 @@ pub fn compile(system: &System, knobs: &Parameters, order: u32) -> Result<Compil
         automata,
         watches,
         watches_of_source,
-        bends: bends.iter().map(|by_location| by_location.contains(&true)).collect(),
         rates,
         outputs,
     };
@@ -298,6 +297,7 @@ fn automata(gather: &Gather<'_>) -> Vec<AutomatonCode> {
                 .collect();
             let locations = 0..automaton.locations.len();
             AutomatonCode {
+                readers: readers_of(gather, a),
                 armed: locations.clone().map(|l| armed_in(gather, a, l)).collect(),
                 row_of: locations
                     .map(|l| {
@@ -308,6 +308,20 @@ fn automata(gather: &Gather<'_>) -> Vec<AutomatonCode> {
                 states,
             }
         })
+        .collect()
+}
+
+/// Watches that read an algebraic variable of an automaton.
+fn readers_of(gather: &Gather<'_>, automaton: usize) -> Vec<WatchIndex> {
+    let system = gather.system;
+    let owned = |leaf: &Leaf| match leaf {
+        Leaf::Algebraic(z) => system.algebraics[z.position()].value.owner.position() == automaton,
+        _ => false,
+    };
+    let watches = system.watches.iter().enumerate();
+    watches
+        .filter(|(_, watch)| gather.closure([watch.difference]).iter().any(owned))
+        .map(|(position, _)| WatchIndex::new(position))
         .collect()
 }
 

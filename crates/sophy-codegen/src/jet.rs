@@ -98,7 +98,9 @@ pub(crate) fn sqrt<T: Scalar, const N: usize>(a: Jet<T, N>) -> Jet<T, N> {
         for i in 1..k {
             rest = rest - c[i] * c[k - i];
         }
-        c[k] = rest / (T::of(2.0) * c[0]);
+        // √0 that stays 0 is 0, not 0/0.
+        let still = c[0].equal(T::of(0.0)) && rest.equal(T::of(0.0));
+        c[k] = if still { rest } else { rest / (T::of(2.0) * c[0]) };
     }
     c
 }
@@ -259,8 +261,10 @@ pub(crate) fn power_constant<T: Scalar, const N: usize>(a: Jet<T, N>, p: T) -> J
         let flat = factor.equal(T::of(0.0));
         let curvature = if flat { factor } else { factor * a[0].pow(p - T::of(2.0)) };
         for k in 1..N {
-            let bend = if k == 2 { curvature * a[1].square() } else { T::of(0.0) };
-            c[k] = slope * a[k] + bend;
+            // An infinite slope times nothing is nothing.
+            let times = |factor: T, x: T| if x.equal(T::of(0.0)) { x } else { factor * x };
+            let bend = if k == 2 { times(curvature, a[1].square()) } else { T::of(0.0) };
+            c[k] = times(slope, a[k]) + bend;
         }
         return c;
     }

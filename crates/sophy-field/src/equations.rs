@@ -45,8 +45,6 @@ pub struct Equations {
     pub watches: Vec<WatchCode>,
     /// Per source: the watches that read it, directly or through algebraic variables.
     pub watches_of_source: Vec<Vec<WatchIndex>>,
-    /// Per state: does its rate bend (is it other than affine in q, for some location)?
-    pub bends: Vec<bool>,
     /// Per state: its rate on the series side (along x), for the Jacobian.
     pub rates: Vec<Selected>,
     /// Per output: its value, switches as written.
@@ -130,7 +128,8 @@ pub struct RowResult {
     pub state: StateIndex,
     /// Where its rate stands.
     pub result: Operand,
-    /// Whether this rate is other than affine in the sources.
+    /// Whether this rate is between events other than the engine takes it for: with order 1 it reads an input
+    /// or time, with order 2 it is not affine in the sources.
     pub bends: bool,
 }
 
@@ -149,6 +148,8 @@ pub struct Entry {
 pub struct AutomatonCode {
     /// States whose rates it selects.
     pub states: Vec<StateIndex>,
+    /// Watches that read an algebraic variable of this automaton: what they watch jumps with its location.
+    pub readers: Vec<WatchIndex>,
     /// Per location: watches armed there, in the order of watches.
     pub armed: Vec<Vec<WatchIndex>>,
     /// Per location, for each of `states`: which right-hand side it has; equal numbers mean equal ones.

@@ -111,8 +111,8 @@ impl Control {
             if self.chosen.is_empty() && !self.choose_by_event(engine, logic) {
                 break;
             }
+            journal.push(Record::Jump { time: t, step });
             if !self.chosen.is_empty() {
-                journal.push(Record::Jump { time: t, step });
                 self.collect_changes(engine, e, logic, t);
                 engine.change(e, t, &self.changes, journal)?;
             }
@@ -129,8 +129,7 @@ impl Control {
                 accumulation = accumulation.or(zeno);
             }
             step += 1;
-            let waiting = self.queues.iter().map(VecDeque::len).sum();
-            if let Some(cycle) = livelock.after(step, engine, e, t, waiting, &taken[before..]) {
+            if let Some(cycle) = livelock.after(step, engine, e, t, &self.queues, &taken[before..]) {
                 return Err(HybridError::Livelock { time: t, steps: step, cycle, exact: true });
             }
             if step >= self.most_steps {

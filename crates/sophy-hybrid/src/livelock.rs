@@ -1,5 +1,6 @@
 use crate::control::Taken;
-use sophy_field::{Engine, Equations, LocationIndex, SourceIndex, TransitionIndex};
+use sophy_field::{Engine, Equations, EventIndex, LocationIndex, SourceIndex, TransitionIndex};
+use std::collections::VecDeque;
 
 /// Finds a round of micro-steps that returns exactly to where it began (Brent's algorithm: compare with a
 /// state kept at the last power of two).
@@ -24,7 +25,7 @@ impl Livelock {
         engine: &dyn Engine,
         e: &Equations,
         t: f64,
-        waiting: usize,
+        waiting: &[VecDeque<EventIndex>],
         taken: &[Taken],
     ) -> Option<Vec<TransitionIndex>> {
         if step < FIRST {
@@ -32,7 +33,11 @@ impl Livelock {
         }
         let states = (0..e.layout.states).map(|s| engine.value(SourceIndex(s), t).to_bits());
         let locations = engine.locations().iter().map(|LocationIndex(l)| u64::from(*l));
-        let situation = states.chain(locations).chain([waiting as u64]);
+        let queue = |queue: &VecDeque<EventIndex>| {
+            let events: Vec<u64> = queue.iter().map(|event| u64::from(event.0)).collect();
+            events.into_iter().chain([u64::MAX])
+        };
+        let situation = states.chain(locations).chain(waiting.iter().flat_map(queue));
         if self.kept_at > 0 && situation.clone().eq(self.kept.iter().copied()) {
             let round = taken.iter().filter(|taken| taken.step >= self.kept_at && taken.time == t);
             return Some(round.map(|taken| taken.transition).collect());

@@ -7,7 +7,7 @@ pub struct Accumulation {
     pub limit: f64,
     /// Time of the last transition taken, s.
     pub last: f64,
-    /// By what factor each round is shorter than the one before.
+    /// By what factor each round is shorter than the one before; NaN if there is no steady one.
     pub ratio: f64,
     /// The transitions of one round.
     pub cycle: Vec<TransitionIndex>,
@@ -78,6 +78,11 @@ impl Zeno {
     fn crowded(&self, t: f64) -> Option<Accumulation> {
         let n = self.history.len();
         if n < CROWD || t - self.history[n - CROWD].0 > RESOLUTION * scale(t) {
+            return None;
+        }
+        // A long cascade at one instant is not Zeno: it ends, or it is a livelock.
+        let instants = self.history[n - CROWD..].windows(2).filter(|pair| pair[0].0 < pair[1].0).count();
+        if instants < CROWD / 8 {
             return None;
         }
         let cycle = self.history[n - LONGEST_CYCLE..].iter().map(|entry| entry.1).collect();

@@ -109,7 +109,14 @@ fn times(experiment: &Experiment) -> Result<(), ExperimentError> {
 
 fn quantum_rule(rule: &QuantumRule, states: &[&str]) -> Result<(), ExperimentError> {
     let QuantumRule { pattern, quantum } = rule;
-    if !(quantum.absolute > 0.0 && quantum.absolute.is_finite() && quantum.relative >= 0.0) {
+    let relative = quantum.relative >= 0.0 && quantum.relative.is_finite();
+    if !relative {
+        return Err(ExperimentError::new(
+            format!("engine.quantum.{pattern}"),
+            format!("the relative quantum of `{pattern}` must not be negative, it is {}", quantum.relative),
+        ));
+    }
+    if !(quantum.absolute > 0.0 && quantum.absolute.is_finite()) {
         return Err(ExperimentError::new(
             format!("engine.quantum.{pattern}"),
             format!("the quantum of `{pattern}` must be positive, it is {}", quantum.absolute),

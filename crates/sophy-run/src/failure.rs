@@ -148,7 +148,7 @@ impl Reporter<'_> {
         let mut failure = self.failure(
             "SR0007",
             time,
-            format!("livelock at t = {time} s: {steps} transitions were taken and time stands still"),
+            format!("livelock at t = {time} s: {steps} micro-steps were taken and time stands still"),
         );
         failure.span = cycle.first().and_then(|t| self.system.transitions[t.position()].span);
         let how = if exact { "this round returns exactly to where it began" } else { "the last transitions" };

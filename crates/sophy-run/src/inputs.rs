@@ -22,12 +22,15 @@ struct Driver {
 
 impl Inputs {
     pub(crate) fn new(signals: Vec<(InputIndex, Signal)>, events: Vec<(f64, EventIndex)>) -> Self {
+        let mut events = events;
+        events.sort_by(|a, b| a.0.total_cmp(&b.0));
         let signals = signals.into_iter().map(|(input, signal)| Driver { input, signal, next: 0 }).collect();
         Inputs { signals, events, next_event: 0 }
     }
 
     /// Value and slope of every input at `start`, in the order given; everything before is past.
     pub(crate) fn begin(&mut self, start: f64) -> Vec<[f64; 2]> {
+        self.next_event = self.events.partition_point(|event| event.0 < start);
         self.signals
             .iter_mut()
             .map(|driver| {

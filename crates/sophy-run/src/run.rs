@@ -119,7 +119,7 @@ impl Run {
     /// # Errors
     /// [`Failure`] when the run cannot go on; what is in the journal stays valid.
     pub fn advance(&mut self, until: f64, budget: u64) -> Result<Pause, Box<Failure>> {
-        match self.go_on(until, budget) {
+        match self.go_on(until.max(self.time), budget.max(1)) {
             Ok(pause) => Ok(pause),
             Err(error) => {
                 let failure = self.failure(&error);
@@ -196,7 +196,7 @@ impl Run {
         self.react_to(time, &compiled).map_err(|error| Box::new(self.failure(&error)))
     }
 
-    /// Gives the equations so far as a value to return to.
+    /// The state of the run at the present time, as a value to return to.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             engine: self.engine.snapshot(),

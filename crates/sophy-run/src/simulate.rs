@@ -112,8 +112,10 @@ impl From<StartError> for SimulateError {
     }
 }
 
-/// Engine steps between two looks at the clock.
+/// Engine steps between two looks at the clock, at most and at first; fewer if they take long.
 const BURST: u64 = 16_384;
+/// Wall time that steps between two looks should take.
+const GLANCE: Duration = Duration::from_millis(50);
 /// Wall time between two flushes.
 const FLUSH_EVERY: Duration = Duration::from_millis(400);
 
@@ -131,8 +133,12 @@ pub fn simulate(
 ) -> Result<Report, SimulateError> {
     let begin = Instant::now();
     let mut flushed = begin;
+    let mut burst = BURST;
     let outcome = loop {
-        let pause = run.advance(experiment.stop, BURST);
+        let glance = Instant::now();
+        let pause = run.advance(experiment.stop, burst);
+        // How often it pauses does not change a bit of the run.
+        burst = if glance.elapsed() > GLANCE { (burst / 2).max(1) } else { (burst * 2).min(BURST) };
         recorder.consume(run, sinks)?;
         let events = events(run, recorder);
         observer.events(&events)?;

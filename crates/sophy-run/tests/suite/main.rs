@@ -14,3 +14,4 @@ mod limits;
 mod promises;
 mod simultaneous;
 mod support;
+mod switches;

@@ -34,8 +34,10 @@ pub struct Qss<const ORDER: usize> {
     /// Watches of guards whose sign changed, for the hybrid logic.
     pub(super) changed: Vec<WatchIndex>,
     /// Entries to evaluate in a change, states that start afresh there, and their slopes; empty in between.
-    entries: Vec<Entry>,
+    pub(super) entries: Vec<Entry>,
     fresh: Vec<StateIndex>,
+    /// Automata that enter a location in a change.
+    entered: Vec<bool>,
     slopes: Vec<(usize, f64)>,
     pub(super) statistics: Statistics,
 }
@@ -79,6 +81,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             changed: Vec::with_capacity(watches),
             entries: Vec::new(),
             fresh: Vec::new(),
+            entered: vec![false; equations.automata.len()],
             slopes: Vec::new(),
             statistics: Statistics::default(),
         }
@@ -168,13 +171,13 @@ impl<const ORDER: usize> Qss<ORDER> {
         journal: &mut Journal,
     ) -> Result<(), Fault> {
         let [f, f1, f2] = rate;
-        if !(f + f1).is_finite() {
-            let value = if f.is_finite() { f1 } else { f };
-            return Err(Fault::NotFinite { state: row.state, time: t, value });
-        }
         let i = row.state.position();
         let record = &mut self.records[i];
-        record.x = [record.x_at(t), f, if ORDER > 1 { 0.5 * f1 } else { 0.0 }];
+        let x = record.x_at(t);
+        if !(f.is_finite() && f1.is_finite() && x.is_finite()) {
+            return Err(not_finite(row.state, t, x, if f.is_finite() { f1 } else { f }));
+        }
+        record.x = [x, f, if ORDER > 1 { 0.5 * f1 } else { 0.0 }];
         record.tx = t;
         self.statistics.rates += 1;
         if row.bends {
@@ -211,7 +214,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.bends[i].due = trusted < next;
             next = next.min(trusted);
         }
-        self.agenda.set(i as u32, next);
+        // Rounding must not lead back; what is not a number is due at once and counted.
+        self.agenda.set(i as u32, if next > t { next } else { t });
     }
 
     /// How long a rate evaluated at `t` may be trusted, exactly if that is less than `enough`: until what its
@@ -269,14 +273,13 @@ impl<const ORDER: usize> Qss<ORDER> {
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.sort_unstable();
         fresh.dedup();
-        let entered = entries.len();
         for &state in &fresh {
             self.synchronise(state.position(), t);
             for range in [&e.influence[state.position()], &e.own[state.position()]] {
                 for &entry in e.entries(range) {
                     // An automaton that was entered has all its rates evaluated already.
                     let rates = !e.block(entry, &self.locations).rows.is_empty();
-                    if !(rates && entries[..entered].iter().any(|other| other.owner == entry.owner)) {
+                    if !(rates && self.entered[entry.owner.position()]) {
                         entries.push(entry);
                     }
                 }
@@ -295,6 +298,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         entries.clear();
         fresh.clear();
+        self.entered.fill(false);
         (self.entries, self.fresh) = (entries, fresh);
         Ok(())
     }
@@ -353,8 +357,18 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.disarm(e, watch);
         }
         self.locations[automaton] = location;
+        self.entered[automaton] = true;
+        self.decide_again(&code.readers);
         let changed = code.row_of[from].iter().zip(&code.row_of[to]).map(|(a, b)| a != b);
         self.fresh.extend(code.states.iter().zip(changed).filter_map(|(&s, changed)| changed.then_some(s)));
+    }
+}
+
+fn not_finite(state: StateIndex, time: f64, x: f64, rate: f64) -> Fault {
+    if x.is_finite() {
+        Fault::NotFinite { state, time, value: rate }
+    } else {
+        Fault::StateNotFinite { state, time, value: x }
     }
 }
 
@@ -376,6 +390,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
             }
         }
         self.guess_truths(e, t);
+        self.entered.fill(true);
         for range in &e.on_location {
             self.entries.extend_from_slice(e.entries(range));
         }

@@ -12,11 +12,11 @@
 //! | algorithm 3.2 | the blocks of `sophy_field::Equations`; ẍ is the exact directional derivative instead of the difference quotient |
 //! | timeToHit, eq. (8.3) | [`watches`] |
 //!
-//! Three weaknesses of the method as printed are mended. A rate that *bends* (is not affine in q, or for QSS1
-//! reads time or a ramp) is evaluated again before the bend has moved x by a quantum, also when no quantised
+//! Three weaknesses of the method as printed are mended. A rate that *bends* (for QSS2: is not affine; for QSS1:
+//! reads time or an input) is evaluated again before the bend has moved x by a quantum, also when no quantised
 //! variable changes; the thesis would follow x′ = sin t by one parabola for ever. At a start, a reset and a
-//! change of location q starts on x *with its slope*, instead of one quantum later. And the printed order of
-//! δ_int before λ is λ first (the output is what was predicted).
+//! change of location q starts on x *with its slope*, instead of one quantum later. The algorithms of chapter 2
+//! print δ_int before λ; the output λ is what was predicted before: x at the edge of the band, which q becomes.
 
 mod engine;
 mod record;

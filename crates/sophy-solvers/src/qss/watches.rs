@@ -86,9 +86,14 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// A source was set from outside: the watches that read it are decided anew.
     pub(super) fn touch(&mut self, e: &Equations, source: SourceIndex) {
-        for &watch in &e.watches_of_source[source.position()] {
+        self.decide_again(&e.watches_of_source[source.position()]);
+    }
+
+    /// What watches read has jumped.
+    pub(super) fn decide_again(&mut self, watches: &[WatchIndex]) {
+        for &watch in watches {
             let record = &mut self.watches[watch.position()];
-            if record.fresh == Fresh::No {
+            if record.armed > 0 && record.fresh == Fresh::No {
                 record.fresh = Fresh::Reset;
             }
             self.mark(watch);
@@ -136,7 +141,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.watches[watch.position()].bias += c[0];
             return self.predict(e, watch, t);
         }
-        self.flip(e, watch, sign, due == Due::Root, t, journal)?;
+        self.take_sign(e, watch, sign, due == Due::Root, t, journal)?;
         self.predict(e, watch, t)
     }
 
@@ -161,23 +166,22 @@ impl<const ORDER: usize> Qss<ORDER> {
                 fresh => self.decide(e, watch, t, fresh)?,
             };
             if fresh == Fresh::Armed {
-                // A guard that has not been read before is always looked at.
+                // It has no past that it could have left.
                 self.watches[watch.position()].sign = sign;
-                self.publish(e, watch, sign);
-                self.stair(e, watch, sign, false, t, journal)?;
             } else if sign != self.watches[watch.position()].sign {
                 rounds += 1;
                 if rounds > 100 * (1 + self.watches.len()) {
                     return Err(Fault::Chattering { watch, time: t });
                 }
-                self.flip(e, watch, sign, false, t, journal)?;
             }
+            self.take_sign(e, watch, sign, false, t, journal)?;
             self.predict(e, watch, t)?;
         }
         Ok(())
     }
 
-    /// Truths and stairs by value alone, before rates are known; [`Qss::settle`] corrects them.
+    /// Truths and stairs of fresh watches by value alone, before rates are known; [`Qss::settle`] corrects
+    /// them. What reads one that changes is evaluated with the change.
     pub(super) fn guess_truths(&mut self, e: &Equations, t: f64) {
         for index in 0..e.watches.len() {
             let watch = WatchIndex::new(index);
@@ -185,12 +189,23 @@ impl<const ORDER: usize> Qss<ORDER> {
             if record.armed == 0 || record.fresh == Fresh::No {
                 continue;
             }
+            let mut changed = false;
             if let Some((stair, _)) = e.watches[index].stair {
                 let argument = self.value_of(e, &e.watches[index].left, t, 1)[0];
-                self.set_scalar(e.layout.stairs + stair, argument.floor());
+                changed |= self.set_scalar(e.layout.stairs + stair, argument.floor());
             }
             let value = self.value_of(e, &e.watches[index].formula, t, 1)[0];
-            self.publish(e, watch, Sign::of(value - record.bias));
+            changed |= self.publish(e, watch, Sign::of(value - record.bias));
+            if changed {
+                self.entries.extend_from_slice(e.entries(&e.on_watch[index]));
+                self.mark_dependents(e, watch);
+            }
+        }
+    }
+
+    fn mark_dependents(&mut self, e: &Equations, watch: WatchIndex) {
+        for &dependent in &e.watches[watch.position()].dependents {
+            self.mark(dependent);
         }
     }
 
@@ -222,12 +237,14 @@ impl<const ORDER: usize> Qss<ORDER> {
         match self.search_from(e, watch, t, t + self.settings.window, start) {
             Search::Crossing(time) => Ok(Sign::of(self.difference(e, watch, time)?[0])),
             Search::None => Ok(Sign::Zero),
+            Search::Undecided(time) if time > t => Ok(Sign::Zero),
             Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
         }
     }
 
-    /// A watch takes another sign: its truths change, and what reads them is evaluated.
-    fn flip(
+    /// A watch takes a sign: if it is another one, that is noted; if truths or a stair change with it, what
+    /// reads them is evaluated.
+    fn take_sign(
         &mut self,
         e: &Equations,
         watch: WatchIndex,
@@ -236,81 +253,87 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         journal: &mut Journal,
     ) -> Result<(), Fault> {
-        let code = &e.watches[watch.position()];
         let record = &mut self.watches[watch.position()];
-        record.repeats = if record.last == t { record.repeats + 1 } else { 0 };
-        record.last = t;
-        record.sign = sign;
-        if record.repeats > MOST_REPEATS {
-            return Err(Fault::Chattering { watch, time: t });
+        if record.sign != sign {
+            record.repeats = if record.last == t { record.repeats + 1 } else { 0 };
+            record.last = t;
+            record.sign = sign;
+            if record.repeats > MOST_REPEATS {
+                return Err(Fault::Chattering { watch, time: t });
+            }
+            self.statistics.crossings += 1;
+            if e.watches[watch.position()].guard {
+                self.changed.push(watch);
+            }
+            if journal.wanted && !e.on_watch[watch.position()].is_empty() {
+                journal.push(Record::Switch { time: t, watch, sign });
+            }
         }
-        self.statistics.crossings += 1;
-        if code.guard {
-            self.changed.push(watch);
-        }
-        if journal.wanted && !e.on_watch[watch.position()].is_empty() {
-            journal.push(Record::Switch { time: t, watch, sign });
-        }
-        self.publish(e, watch, sign);
-        self.stair(e, watch, sign, located, t, journal)?;
-        for &entry in e.entries(&e.on_watch[watch.position()]) {
-            self.evaluate_entry(e, entry, t, journal)?;
-        }
-        for &dependent in &code.dependents {
-            self.mark(dependent);
+        let changed = self.publish(e, watch, sign);
+        let stepped = self.step_stair(e, watch, sign, located, t)?;
+        if changed || stepped {
+            for &entry in e.entries(&e.on_watch[watch.position()]) {
+                self.evaluate_entry(e, entry, t, journal)?;
+            }
+            self.mark_dependents(e, watch);
         }
         Ok(())
     }
 
-    /// Writes the truths that a sign means.
-    fn publish(&mut self, e: &Equations, watch: WatchIndex, sign: Sign) {
+    /// Writes the truths that a sign means; whether one changed.
+    fn publish(&mut self, e: &Equations, watch: WatchIndex, sign: Sign) -> bool {
+        let mut changed = false;
         for &(truth, signs) in &e.watches[watch.position()].truths {
             let holds = if signs & sign_bit(sign) != 0 { 1.0 } else { 0.0 };
-            self.set_scalar(e.layout.truths + truth, holds);
+            changed |= self.set_scalar(e.layout.truths + truth, holds);
         }
+        changed
     }
 
-    /// A stair is stepped when its lower watch is negative or its upper one is not.
-    fn stair(
+    /// A stair is stepped when its lower watch is negative or its upper one is not; whether it was.
+    fn step_stair(
         &mut self,
         e: &Equations,
         watch: WatchIndex,
         sign: Sign,
         located: bool,
         t: f64,
-        journal: &mut Journal,
-    ) -> Result<(), Fault> {
-        let Some((stair, step)) = e.watches[watch.position()].stair else { return Ok(()) };
+    ) -> Result<bool, Fault> {
+        let Some((stair, step)) = e.watches[watch.position()].stair else { return Ok(false) };
         let inside = if step < 0.0 { sign != Sign::Negative } else { sign == Sign::Negative };
         if inside {
-            return Ok(());
+            return Ok(false);
         }
         let at = e.layout.stairs + stair;
         let argument = self.value_of(e, &e.watches[watch.position()].left, t, 1)[0];
         let next = self.memory[at as usize] + step;
-        // Located on the step, or within one of it: the next one. Thrown further by a jump: where it is.
-        let near = located || (argument - next).abs() <= 1.0;
-        self.set_scalar(at, if near { next } else { argument.floor() });
+        let edge = if step < 0.0 { next + 1.0 } else { next };
+        // On the edge, located or to rounding: the next one. Thrown further by a jump: where it is.
+        let on_edge = located || (argument - edge).abs() <= 4.0 * (edge.abs().next_up() - edge.abs());
+        self.set_scalar(at, if on_edge { next } else { argument.floor() });
         for (index, code) in e.watches.iter().enumerate() {
             if code.stair.is_some_and(|(other, _)| other == stair) && self.watches[index].armed > 0 {
                 let other = WatchIndex::new(index);
                 let raw = self.raw_difference(e, other, t)?[0];
-                let takes_over = located && other != watch;
+                let takes_over = on_edge && other != watch;
                 self.watches[index].bias = if takes_over { raw } else { 0.0 };
                 let c = self.difference(e, other, t)?;
                 self.watches[index].sign = self.sign_after(e, other, t, &c)?;
                 self.mark(other);
             }
         }
-        for &entry in e.entries(&e.on_watch[watch.position()]) {
-            self.evaluate_entry(e, entry, t, journal)?;
-        }
-        Ok(())
+        Ok(true)
     }
 
-    fn set_scalar(&mut self, at: u32, value: f64) {
+    /// Writes a truth or stair; whether it changed.
+    #[allow(clippy::float_cmp)] // the same whole number or not
+    fn set_scalar(&mut self, at: u32, value: f64) -> bool {
+        if self.memory[at as usize] == value {
+            return false;
+        }
         self.memory[at as usize] = value;
         self.enclosed[at as usize] = Interval::point(value);
+        true
     }
 
     /// When the decided sign is first lost on the present segments (thesis §8.3.2, timeToHit).
@@ -354,6 +377,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         match self.search_from(e, watch, t, end, start) {
             Search::Crossing(time) => Ok((time, if time > t { Due::Root } else { Due::Joint })),
             Search::None => Ok((end, Due::Search)),
+            // Not decided ahead: the segments may be others by then.
+            Search::Undecided(time) if time > t => Ok((time, Due::Search)),
             Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
         }
     }
@@ -384,12 +409,12 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     fn raw_difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
-        let c = self.value_of(e, &e.watches[watch.position()].formula, t, ORDER + 1);
-        if c.iter().all(|x| x.is_finite()) {
-            return Ok(c);
+        let [value, c1, c2] = self.value_of(e, &e.watches[watch.position()].formula, t, ORDER + 1);
+        if !value.is_finite() {
+            return Err(Fault::WatchNotFinite { watch, time: t, value });
         }
-        let value = c.into_iter().find(|x| !x.is_finite()).unwrap_or(f64::NAN);
-        Err(Fault::WatchNotFinite { watch, time: t, value })
+        // A derivative may be infinite where the value is not (√x at 0): then only enclosures help.
+        if c1.is_finite() && c2.is_finite() { Ok([value, c1, c2]) } else { Ok([value, 0.0, 0.0]) }
     }
 
     /// A formula on the series side at `t`.
