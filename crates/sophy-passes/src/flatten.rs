@@ -10,7 +10,7 @@ use sophy_ir::{
     FlatTrigger, Graph, Input, Leaf, Model, NodeId, Output, Parameter, Receiver, Row, State, System, Trigger,
     VariableId, VariableKind,
 };
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 /// Why components cannot be put together.
@@ -66,32 +66,54 @@ struct Flattener<'a> {
 }
 
 impl Flattener<'_> {
+    /// Parameters in an order in which each comes after those it reads; a stack of its own, because a file
+    /// may chain many thousands of them.
     fn parameters(&mut self) -> Result<(), FlattenError> {
-        for (id, variable) in self.variables_in_order() {
-            if matches!(variable, VariableKind::Parameter(_)) {
-                self.parameter(id)?;
+        let mut open = HashSet::new();
+        for (root, kind) in self.variables_in_order() {
+            if !matches!(kind, VariableKind::Parameter(_)) {
+                continue;
+            }
+            let mut pending = vec![root];
+            while let Some(&id) = pending.last() {
+                if self.leaves.contains_key(&id) {
+                    pending.pop();
+                    continue;
+                }
+                let VariableKind::Parameter(value) = self.model.variable(id).kind else {
+                    pending.pop();
+                    continue;
+                };
+                let missing: Vec<VariableId> = self
+                    .model
+                    .graph
+                    .dependencies([value])
+                    .into_iter()
+                    .filter_map(|leaf| match leaf {
+                        Leaf::Variable(other) if !self.leaves.contains_key(&other) => Some(other),
+                        _ => None,
+                    })
+                    .collect();
+                if missing.is_empty() {
+                    pending.pop();
+                    self.parameter(id, value);
+                } else if !open.insert(id) {
+                    let mut circle: Vec<String> = pending
+                        .iter()
+                        .filter(|id| open.contains(id))
+                        .map(|&id| self.model.full_name(id))
+                        .collect();
+                    circle.push(self.model.full_name(id));
+                    return Err(FlattenError::ParameterLoop(circle));
+                } else {
+                    pending.extend(missing);
+                }
             }
         }
         Ok(())
     }
 
-    fn parameter(&mut self, id: VariableId) -> Result<NodeId, FlattenError> {
-        if let Some(&known) = self.leaves.get(&id) {
-            return Ok(known);
-        }
-        if self.open.contains(&id) {
-            return Err(FlattenError::ParameterLoop(self.circle(id)));
-        }
-        let VariableKind::Parameter(value) = self.model.variable(id).kind else {
-            return Ok(self.system.graph.number(f64::NAN));
-        };
-        self.open.push(id);
-        for leaf in self.model.graph.dependencies([value]) {
-            if let Leaf::Variable(other) = leaf {
-                self.parameter(other)?;
-            }
-        }
-        self.open.pop();
+    fn parameter(&mut self, id: VariableId, value: NodeId) {
         let value = self.copy(value);
         let variable = self.model.variable(id);
         let index = ParameterIndex::new(self.system.parameters.len());
@@ -103,7 +125,6 @@ impl Flattener<'_> {
         });
         let leaf = self.system.graph.leaf(Leaf::Parameter(index));
         self.leaves.insert(id, leaf);
-        Ok(leaf)
     }
 
     /// States and open inputs get their indices before any expression is copied.

@@ -115,3 +115,36 @@ fn an_algebraic_loop_between_components_is_named() {
     assert!(names.contains(&"left.y".to_owned()) && names.contains(&"right.y".to_owned()), "{names:?}");
     assert_eq!(names.first(), names.last());
 }
+
+/// A chain of parameters written in the wrong order, on a small stack; and a circle.
+#[test]
+fn parameters_are_sorted_without_recursion() {
+    let chain = |last: Option<f64>| {
+        let mut b = Build::default();
+        b.component("");
+        let count = 20_000;
+        let ids: Vec<_> = (0..count).map(sophy_ir::VariableId).collect();
+        let one = b.number(1.0);
+        for k in 0..count as usize {
+            b.parameter(&format!("c{k}"), 0.0);
+            let next = match (ids.get(k + 1), last) {
+                (Some(&next), _) => b.read(next),
+                (None, Some(value)) => b.number(value),
+                (None, None) => b.read(ids[0]),
+            };
+            let value = b.add(next, one);
+            b.model.variables[k].kind = sophy_ir::VariableKind::Parameter(value);
+        }
+        b.location("here");
+        std::thread::Builder::new()
+            .stack_size(256 * 1024)
+            .spawn(move || lower(&b.model))
+            .unwrap()
+            .join()
+            .unwrap()
+    };
+    let system = chain(Some(1.0)).unwrap();
+    assert_eq!(system.parameters.len(), 20_000);
+    assert_eq!(system.parameters[0].name, "c19999");
+    assert!(matches!(chain(None), Err(PassError::Flatten(FlattenError::ParameterLoop(_)))));
+}
