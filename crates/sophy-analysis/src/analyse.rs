@@ -1,85 +1,193 @@
-use crate::assemble::assemble;
-use crate::checks;
-use crate::declarations::{Declarations, ExpressionText};
+use crate::checks::{hs0107_declared_twice, hs0138_unknown_component, hs0142_no_component};
+use crate::component::{Given, Shared};
+use crate::composite::Library;
+use crate::declarations::{ComponentDeclaration, ComponentKind, Declarations, Dialect, MemberItem};
+use crate::dependency_order::dependency_order;
 use crate::findings::Findings;
-use crate::lower::{
-    Context, LoweredLocation, Strays, lower_definitions, lower_initial_values, lower_location,
-};
-use crate::names::Names;
-use sophy_diagnostics::Diagnostics;
-use sophy_ir::{Graph, Model};
+use crate::lower::{Files, lower_globals};
+use sophy_diagnostics::{Diagnostics, SourceId, Sources, Span, World};
+use sophy_ir::{Body, Class, ClassIndex, Model};
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
 
-/// Finds all mistakes of a system, and makes a model of it if there are none.
+/// Which component a model is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Root<'n> {
+    /// The component of this name.
+    Named(&'n str),
+    /// The one SYSTEM of the file, or its one component; an error if that is not clear.
+    Implied,
+    /// The same, but if it is not clear there is no model, and nothing is said: the file is a library.
+    IfClear,
+}
+
+/// Finds all mistakes of a file and what it imports, and makes a model of it if there are none.
 ///
-/// Mistakes of grammar, empty names and missing guards are the reader's to report, who knows the file: no
-/// model is made from them, but nothing is said of them here.
-pub fn analyse(declarations: &Declarations) -> (Option<Model>, Diagnostics) {
+/// `main` is the source of the file itself, in which the root is looked for; tables and data files are read through
+/// `world`, their paths start at the folder of the source that names them. Mistakes of grammar, empty names and
+/// missing guards are the reader's to report, who knows the file: no model is made from them, but nothing is said of
+/// them here.
+pub fn analyse(
+    declarations: &Declarations,
+    root: Root<'_>,
+    main: SourceId,
+    sources: &Sources,
+    world: &dyn World,
+) -> (Option<Model>, Diagnostics) {
     let mut findings = Findings::default();
-    let mut graph = Graph::default();
-
-    // Names, then what holds everywhere, then location by location.
-    let (names, repeated) = Names::collect(declarations);
-    for repeated in &repeated {
-        findings.report(checks::hs0107_declared_twice::diagnostic(repeated));
+    let mut files = Files::new(world);
+    for source in sources.ids() {
+        let folder = std::path::Path::new(sources.name(source)).parent().map(std::path::PathBuf::from);
+        files.set_folder(source, folder.unwrap_or_default());
     }
-    let definitions = lower_definitions(declarations, &names, &mut graph, &mut findings);
-    let mut context = Context {
-        names: &names,
-        functions: &definitions.functions,
-        constants: &definitions.values,
-        findings: &mut findings,
-    };
-    let initial = lower_initial_values(declarations, &mut graph, &mut context);
-    let mut strays = Strays::default();
-    let locations: Vec<LoweredLocation> = (0..declarations.locations.len())
-        .map(|position| lower_location(declarations, position, &mut graph, &mut context, &mut strays))
-        .collect();
+    let mut texts = Vec::new();
+    let constants: Vec<_> = declarations.constants.iter().collect();
+    let functions: Vec<_> = declarations.functions.iter().collect();
+    let dialect = declarations.components.first().map_or(Dialect::Hsml, |component| component.dialect);
+    let globals = lower_globals(&constants, &functions, dialect, &mut files, &mut texts, &mut findings);
+    let globals = Rc::new(globals);
+    let mut shared = Shared { findings, texts, files, globals, sources };
+    shared.check_globals(&constants, &functions);
 
-    // What no single expression shows.
-    let Findings { mut diagnostics, unknown_names, logarithms, .. } = findings;
-    let mut suggested = checks::hs0101_unknown_name::find(&unknown_names, &names, &mut diagnostics);
-    checks::hs0201_unknown_function::find(&unknown_names, &names, &mut diagnostics);
-    checks::hs0206_natural_logarithm::find(&logarithms, &mut diagnostics);
-    let meant_states =
-        checks::hs0102_equation_for_undeclared_state::find(declarations, &strays, &names, &mut diagnostics);
-    checks::hs0103_reset_of_undeclared_state::find(declarations, &strays, &names, &mut diagnostics);
-    let meant_outputs =
-        checks::hs0104_map_for_undeclared_output::find(declarations, &strays, &names, &mut diagnostics);
-    checks::hs0106_unit_for_unknown_name::find(declarations, &names, &mut diagnostics);
-    checks::hs0109_output_without_map::find(declarations, &names, &meant_outputs, &mut diagnostics);
-    checks::hs0110_state_without_equation::find(declarations, &names, &meant_states, &mut diagnostics);
-    checks::hs0112_location_declared_twice::find(declarations, &mut diagnostics);
-    checks::hs0113_transition_declared_twice::find(declarations, &mut diagnostics);
-    checks::hs0114_unknown_destination::find(declarations, &mut diagnostics);
-    checks::hs0115_unknown_initial_location::find(declarations, &mut diagnostics);
-    checks::hs0116_unreachable_location::find(declarations, &locations, &graph, &mut diagnostics);
-    checks::hs0117_hidden_name::find(declarations, &names, &mut diagnostics);
-    suggested.extend(meant_states.into_iter().map(|(_, name)| name));
-    checks::hs0118_unused::find(declarations, &names, &suggested, &mut diagnostics);
-    checks::hs0119_no_location::find(declarations, &mut diagnostics);
-    checks::hs0401_constant_guard::find(declarations, &locations, &graph, &mut diagnostics);
-    checks::hs0402_taken_on_entry::find(declarations, &locations, &mut graph, &mut diagnostics);
+    // Members before composites.
+    let components: Vec<&ComponentDeclaration> = declarations.components.iter().collect();
+    check_names(&components, &mut shared.findings);
+    let mut library = Library::new(components);
+    let needs: Vec<Vec<usize>> =
+        library.components.iter().map(|component| members_of(component, &library)).collect();
+    let sorted = dependency_order(&needs);
+    let mut circular: HashSet<usize> = HashSet::new();
+    for cycle in &sorted.cycles {
+        let members: Vec<&ComponentDeclaration> = cycle.iter().map(|&index| library.components[index]).collect();
+        shared.findings.report(hs0138_unknown_component::circle(&members));
+        circular.extend(cycle);
+    }
+    let mut entries = HashMap::new();
+    for index in sorted.order {
+        if !needs[index].iter().any(|needed| circular.contains(needed)) {
+            entries.insert(index, library.entry(&mut shared, index, &Given::new()));
+        } else {
+            circular.insert(index);
+        }
+    }
 
-    let well_formed = expressions(declarations).all(|text| text.parse.errors().is_empty());
-    let model = if diagnostics.has_errors() || !well_formed {
-        None
-    } else {
-        assemble(declarations, &names, &definitions.constants, &initial, locations, graph)
-    };
+    let root = find_root(&library, root, main, sources, &mut shared.findings);
+    let Shared { findings, texts, files, .. } = shared;
+    let diagnostics = once(findings.diagnostics);
+    let well_formed = !diagnostics.has_errors();
+    let class = root.and_then(|root| entries.get(&root)).and_then(|entry| entry.class);
+    let model = class.filter(|_| well_formed).map(|class| {
+        let (classes, root) = reachable(library.classes, class);
+        Model { classes, root, texts, tables: files.tables }
+    });
     (model, diagnostics)
 }
 
-/// All expressions of a system.
-pub(crate) fn expressions(declarations: &Declarations) -> impl Iterator<Item = &ExpressionText> {
-    let d = declarations;
-    let everywhere = d.constants.iter().map(|c| &c.value).chain(d.functions.iter().map(|f| &f.body));
-    let of_locations = d.locations.iter().flat_map(|location| {
-        let equations = location.dynamics.iter().chain(&location.outputs).map(|e| &e.right);
-        let of_transitions = location
-            .transitions
-            .iter()
-            .flat_map(|t| t.guard.iter().chain(t.resets.iter().map(|reset| &reset.right)));
-        equations.chain(of_transitions)
-    });
-    everywhere.chain(d.initial.iter().map(|e| &e.right)).chain(of_locations)
+fn check_names(components: &[&ComponentDeclaration], findings: &mut Findings) {
+    let mut first: HashMap<&str, Span> = HashMap::new();
+    for component in components.iter().filter(|component| !component.name.value.is_empty()) {
+        let (name, span) = (component.name.value.as_str(), component.name.span);
+        match first.get(name) {
+            Some(&first) => findings.report(hs0107_declared_twice::component(name, first, span)),
+            None => {
+                first.insert(name, span);
+            }
+        }
+    }
+}
+
+/// Components that a composite has members of.
+fn members_of(component: &ComponentDeclaration, library: &Library<'_>) -> Vec<usize> {
+    let mut found = Vec::new();
+    let mut pending: Vec<&MemberItem> = component.members.iter().rev().collect();
+    while let Some(item) = pending.pop() {
+        match item {
+            MemberItem::Member(member) => found.extend(library.named(&member.component.value)),
+            MemberItem::For(turns) => pending.extend(turns.items.iter().rev()),
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+fn find_root(
+    library: &Library<'_>,
+    root: Root<'_>,
+    main: SourceId,
+    sources: &Sources,
+    findings: &mut Findings,
+) -> Option<usize> {
+    let own: Vec<usize> =
+        (0..library.components.len()).filter(|&k| library.components[k].name.span.source == main).collect();
+    let file = Span::new(main, 0..sources.text(main).len().min(1));
+    if let Root::Named(name) = root {
+        let found = library.named(name);
+        if found.is_none() {
+            findings.report(hs0142_no_component::unknown(name, &library.components, file));
+        }
+        return found;
+    }
+    let systems: Vec<usize> =
+        own.iter().copied().filter(|&k| library.components[k].kind == ComponentKind::System).collect();
+    let candidates = if systems.is_empty() { own } else { systems };
+    match (candidates.as_slice(), root) {
+        (&[only], _) => Some(only),
+        (_, Root::IfClear) => None,
+        ([], _) => {
+            findings.report(hs0142_no_component::none(file));
+            None
+        }
+        (several, _) => {
+            let several: Vec<&ComponentDeclaration> = several.iter().map(|&k| library.components[k]).collect();
+            findings.report(hs0142_no_component::ambiguous(&several));
+            None
+        }
+    }
+}
+
+/// What is analysed in several forms says the same several times.
+fn once(diagnostics: Diagnostics) -> Diagnostics {
+    let mut seen = HashSet::new();
+    let mut result = Diagnostics::default();
+    for diagnostic in diagnostics.iter() {
+        if seen.insert((diagnostic.code, diagnostic.span(), diagnostic.message.clone())) {
+            result.push(diagnostic.clone());
+        }
+    }
+    result
+}
+
+/// The classes that a root needs, in the same order.
+fn reachable(classes: Vec<Class>, root: ClassIndex) -> (Vec<Class>, ClassIndex) {
+    let mut needed = vec![false; classes.len()];
+    let mut pending = vec![root];
+    while let Some(index) = pending.pop() {
+        if std::mem::replace(&mut needed[index.0 as usize], true) {
+            continue;
+        }
+        if let Body::Composite(composite) = &classes[index.0 as usize].body {
+            pending.extend(composite.members.iter().map(|member| member.class));
+        }
+    }
+    let mut number = Vec::with_capacity(classes.len());
+    let mut count = 0;
+    for &is_needed in &needed {
+        number.push(ClassIndex(count));
+        count += u32::from(is_needed);
+    }
+    let mut kept: Vec<Class> = classes
+        .into_iter()
+        .zip(&needed)
+        .filter(|(_, is_needed)| **is_needed)
+        .map(|(class, _)| class)
+        .collect();
+    for class in &mut kept {
+        if let Body::Composite(composite) = &mut class.body {
+            for member in &mut composite.members {
+                member.class = number[member.class.0 as usize];
+            }
+        }
+    }
+    (kept, number[root.0 as usize])
 }

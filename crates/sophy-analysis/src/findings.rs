@@ -1,4 +1,4 @@
-use sophy_diagnostics::{Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Diagnostic, Diagnostics, Severity, Span};
 
 /// An expression uses a name that nothing declares.
 pub(crate) struct UnknownName {
@@ -6,8 +6,8 @@ pub(crate) struct UnknownName {
     pub(crate) span: Span,
     /// Whether it is called.
     pub(crate) called: bool,
-    /// Parameters of the function whose body it stands in.
-    pub(crate) parameters: Vec<String>,
+    /// What can be named where it stands, likelier ones first.
+    pub(crate) candidates: Vec<String>,
 }
 
 /// What the lowering meets. Facts that are reported together, however often they occur, are gathered.
@@ -19,10 +19,22 @@ pub(crate) struct Findings {
     pub(crate) logarithms: Vec<Span>,
     /// Whether it was said that the model grows beyond bounds.
     pub(crate) too_large: bool,
+    errors: usize,
 }
 
 impl Findings {
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+        self.errors += usize::from(diagnostic.severity == Severity::Error);
         self.diagnostics.push(diagnostic);
+    }
+
+    pub(crate) fn report_all(&mut self, diagnostics: Diagnostics) {
+        self.errors += diagnostics.count(Severity::Error);
+        self.diagnostics.extend(diagnostics);
+    }
+
+    /// Errors so far, unknown names included.
+    pub(crate) fn error_count(&self) -> usize {
+        self.errors + self.unknown_names.len()
     }
 }

@@ -19,17 +19,17 @@
 //! ```
 
 use crate::declarations::{
-    ConstantDeclaration, Declarations, EquationDeclaration, ExpressionText, FunctionDeclaration,
-    LocationDeclaration, Spanned, TransitionDeclaration, VariableDeclaration,
+    ComponentDeclaration, ComponentKind, Declarations, Dialect, Direction, EquationDeclaration, EquationItem,
+    Equations, ExpressionText, FunctionDeclaration, LocationDeclaration, ParameterDeclaration, PortDeclaration,
+    Spanned, Statement, Target, TransitionDeclaration, TriggerDeclaration, VariableDeclaration, VariableRole,
 };
-use sophy_diagnostics::{Diagnostic, Diagnostics, Severity, SourceId, Sources, Span, TextMap};
+use sophy_diagnostics::{Diagnostic, Diagnostics, MemoryWorld, Severity, SourceId, Sources, Span, TextMap};
 use sophy_ir::Model;
-use sophy_syntax::parse_expression;
 
 /// Analyses `text` and compares all diagnostics, sorted by place, with `expected` (indentation aside).
 pub(crate) fn check(text: &str, expected: &str) {
     let (sources, declarations) = read(text);
-    let (model, diagnostics) = crate::analyse(&declarations);
+    let (model, diagnostics) = analysed(&sources, &declarations);
     assert!(model.is_none() || !diagnostics.has_errors(), "a model with errors");
     let expected: Vec<&str> = expected.lines().map(str::trim).collect();
     assert_eq!(rendered(diagnostics, &sources), expected.join("\n"));
@@ -38,7 +38,8 @@ pub(crate) fn check(text: &str, expected: &str) {
 /// The same for a system without errors.
 pub(crate) fn check_model(text: &str, expected: &str) -> Model {
     check(text, expected);
-    crate::analyse(&read(text).1).0.expect("there are no errors")
+    let (sources, declarations) = read(text);
+    analysed(&sources, &declarations).0.expect("there are no errors")
 }
 
 /// The model of a system without anything to complain of.
@@ -46,15 +47,29 @@ pub(crate) fn model_of(text: &str) -> Model {
     check_model(text, "")
 }
 
+/// The automaton of a model that is one component.
+pub(crate) fn automaton(model: &Model) -> &sophy_ir::HybridAutomaton {
+    match &model.root().body {
+        sophy_ir::Body::Automaton(automaton) => automaton,
+        other => panic!("{other:?} is no automaton"),
+    }
+}
+
 /// All diagnostics of `text`.
 pub(crate) fn diagnostics_of(text: &str) -> Vec<Diagnostic> {
-    crate::analyse(&read(text).1).1.iter().cloned().collect()
+    let (sources, declarations) = read(text);
+    analysed(&sources, &declarations).1.iter().cloned().collect()
 }
 
 /// Codes of the errors in `text`.
 pub(crate) fn errors_of(text: &str) -> Vec<&'static str> {
     let errors = diagnostics_of(text).into_iter().filter(|d| d.severity == Severity::Error);
     errors.map(|diagnostic| diagnostic.code.0).collect()
+}
+
+pub(crate) fn analysed(sources: &Sources, declarations: &Declarations) -> (Option<Model>, Diagnostics) {
+    let main = declarations.components[0].name.span.source;
+    crate::analyse(declarations, crate::Root::Implied, main, sources, &MemoryWorld::default())
 }
 
 fn rendered(diagnostics: Diagnostics, sources: &Sources) -> String {
@@ -86,57 +101,74 @@ pub(crate) fn read(text: &str) -> (Sources, Declarations) {
     let at = |part: &str| part.as_ptr() as usize - text.as_ptr() as usize;
     let name = |part: &str| Spanned::new(part.to_owned(), Span::new(source, at(part)..at(part) + part.len()));
     let expression = |part: &str| expression(part, source, at(part));
-    let equation = |rest: &str| {
+    let equation = |rest: &str, derivative: bool| {
         let (target, right) = split(text, at(rest), rest.len(), "=");
-        EquationDeclaration { target: name(target), right: expression(right) }
+        let target = Target { name: name(target), indices: Vec::new() };
+        EquationDeclaration { derivative, target, right: expression(right) }
     };
-    let variable = |rest: &str| VariableDeclaration { name: name(rest), documentation: String::new() };
-    let mut d = Declarations {
-        name: Spanned::new(String::new(), Span::new(source, 0..0)),
+    let assignment = |rest: &str| {
+        let EquationDeclaration { target, right, .. } = equation(rest, false);
+        Statement::Assign { target, right }
+    };
+    let port = |rest: &str, direction| PortDeclaration {
+        name: name(rest),
         documentation: String::new(),
-        constants: Vec::new(),
-        functions: Vec::new(),
-        states: Vec::new(),
-        inputs: Vec::new(),
-        outputs: Vec::new(),
-        initial: Vec::new(),
-        initial_location: None,
-        units: Vec::new(),
-        hints: Vec::new(),
-        locations: Vec::new(),
+        direction,
+        kind: None,
+        range: None,
+        unit: None,
     };
+    let mut functions = Vec::new();
+    let nameless = Spanned::new("test".to_owned(), Span::new(source, 0..0));
+    let mut d = ComponentDeclaration::new(ComponentKind::Ctc, nameless, Dialect::Xml);
     for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
         let (keyword, rest) = split(text, at(line), line.len(), " ");
         match keyword {
             "system" => d.name = name(rest),
             "constant" => {
-                let EquationDeclaration { target, right } = equation(rest);
-                d.constants.push(ConstantDeclaration { name: target, value: right });
+                let EquationDeclaration { target, right, .. } = equation(rest, false);
+                d.parameters.push(ParameterDeclaration {
+                    name: target.name,
+                    documentation: String::new(),
+                    value: right,
+                    unit: None,
+                });
             }
             "function" => {
                 let (head, body) = split(text, at(rest), rest.len(), "=");
                 let (called, parameters) = head.split_once('(').expect("a parameter list");
-                let parameters = parameters.trim_end_matches(')').split(',').map(|p| name(p.trim()));
-                d.functions.push(FunctionDeclaration {
+                let parameters = parameters.trim_end_matches(')').split(',').map(|p| (name(p.trim()), None));
+                functions.push(FunctionDeclaration {
                     name: name(called.trim()),
+                    documentation: String::new(),
                     parameters: parameters.collect(),
+                    result: None,
                     body: expression(body),
                 });
             }
-            "state" => d.states.push(variable(rest)),
-            "input" => d.inputs.push(variable(rest)),
-            "output" => d.outputs.push(variable(rest)),
+            "state" => d.variables.push(VariableDeclaration {
+                role: VariableRole::State,
+                name: name(rest),
+                documentation: String::new(),
+                kind: None,
+                range: None,
+                initial: None,
+                unit: None,
+            }),
+            "input" => d.ports.push(port(rest, Direction::Input)),
+            "output" => d.ports.push(port(rest, Direction::Output)),
             "unit" => {
                 let (of, unit) = split(text, at(rest), rest.len(), "=");
                 d.units.push((name(of), name(unit)));
             }
-            "initial" => d.initial.push(equation(rest)),
+            "initial" => d.initial.push(assignment(rest)),
             "start" => d.initial_location = Some(name(rest)),
             "location" => d.locations.push(LocationDeclaration {
                 name: name(rest),
                 documentation: String::new(),
-                dynamics: Vec::new(),
-                outputs: Vec::new(),
+                variables: Vec::new(),
+                equations: Equations::default(),
+                invariant: None,
                 transitions: Vec::new(),
             }),
             _ => {
@@ -147,27 +179,34 @@ pub(crate) fn read(text: &str) -> (Sources, Declarations) {
                     location.transitions.push(TransitionDeclaration {
                         name: name(called),
                         documentation: String::new(),
-                        guard: Some(expression(guard)),
+                        trigger: TriggerDeclaration::WhenOrOn(Some(expression(guard)), Vec::new()),
+                        priority: None,
                         destination: name(destination),
-                        resets: Vec::new(),
-                        input_events: Vec::new(),
-                        output_events: Vec::new(),
+                        actions: Vec::new(),
                     });
                     continue;
                 }
                 let transition = location.transitions.last_mut();
                 match (keyword, transition) {
-                    ("der", _) => location.dynamics.push(equation(rest)),
-                    ("out", _) => location.outputs.push(equation(rest)),
-                    ("reset", Some(transition)) => transition.resets.push(equation(rest)),
-                    ("on", Some(transition)) => transition.input_events.push(name(rest)),
-                    ("emit", Some(transition)) => transition.output_events.push(name(rest)),
+                    ("der", _) => {
+                        location.equations.dynamics.push(EquationItem::Equation(equation(rest, true)));
+                    }
+                    ("out", _) => {
+                        location.equations.output.push(EquationItem::Equation(equation(rest, false)));
+                    }
+                    ("reset", Some(transition)) => transition.actions.push(assignment(rest)),
+                    ("on", Some(transition)) => match &mut transition.trigger {
+                        TriggerDeclaration::WhenOrOn(_, events) => events.push(name(rest)),
+                        _ => panic!("no such trigger"),
+                    },
+                    ("emit", Some(transition)) => transition.actions.push(Statement::Emit(name(rest))),
                     _ => panic!("what is `{line}`?"),
                 }
             }
         }
     }
-    (sources, d)
+    let declarations = Declarations { functions, components: vec![d], ..Declarations::default() };
+    (sources, declarations)
 }
 
 /// The two sides of the first `separator` in a part of `text`, trimmed.
@@ -178,9 +217,5 @@ fn split<'t>(text: &'t str, start: usize, length: usize, separator: &str) -> (&'
 }
 
 fn expression(part: &str, source: SourceId, start: usize) -> ExpressionText {
-    ExpressionText {
-        text: part.to_owned(),
-        parse: parse_expression(part),
-        map: TextMap::plain(source, start as u32, part.len() as u32),
-    }
+    ExpressionText::parse(part, TextMap::plain(source, start as u32, part.len() as u32)).0
 }

@@ -7,7 +7,10 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(name = "sophy", version, propagate_version = true, max_term_width = 100)]
 #[command(after_help = "\
-Example: sophy run hopper.xml --stop 20 --output hopper.csv --plot hopper.png
+Examples:
+  sophy new hybrid Ball -o ball.hsml                              a model to begin with
+  sophy check ball.hsml                                           its mistakes, if there are any
+  sophy run ball.hsml --stop 10 --output ball.csv --plot ball.png
 
 Exit codes: 0 done, 1 the model or experiment has errors, 2 wrong use of the command line,
 3 the run failed, 4 a file could not be read or written, 130 interrupted (files are complete).")]
@@ -45,18 +48,32 @@ pub(crate) enum Colour {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Run a model (.xml) or an experiment (.toml)
+    /// Run a model (.hsml, .xml) or an experiment (.toml)
     #[command(after_help = RUN_EXAMPLES)]
     Run(Box<Run>),
     /// Find all mistakes of models and experiments without running them
-    #[command(after_help = "Example: sophy check battery.xml battery.toml")]
+    #[command(after_help = CHECK_EXAMPLES)]
     Check(Check),
     /// Show what a model consists of
-    #[command(after_help = "Example: sophy info hopper.xml")]
+    #[command(after_help = "Example: sophy info hopper.hsml")]
     Info(Info),
-    /// Write a model or a result in another form
+    /// Write a model to begin with: a template of a component, a system or an experiment
+    #[command(after_help = NEW_EXAMPLES)]
+    New(New),
+    /// Explain the code of a message; without a code, list all
+    #[command(after_help = "Example: sophy explain HS0303")]
+    Explain(Explain),
+    /// Lay out HSML files in place; comments stay, models stay what they are
     #[command(after_help = "\
 Examples:
+  sophy fmt *.hsml            lays out the files
+  sophy fmt --check *.hsml    says which are not laid out, and changes nothing
+  sophy fmt - < a.hsml        prints the layout")]
+    Fmt(Fmt),
+    /// Write a model in the other language, or a result in another format
+    #[command(after_help = "\
+Examples:
+  sophy convert hopper.xml hopper.hsml         SOPHY XML to HSML, and back
   sophy convert draft.xml tidy.xml             a model in canonical form
   sophy convert hopper.parquet hopper.csv      a result in another format
   sophy convert hopper.parquet.journal a.csv   what a killed run has left")]
@@ -70,10 +87,22 @@ Examples:
     Plot(Plot),
 }
 
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  sophy check battery.hsml battery.toml
+  sophy check parts.hsml             a file of several components: each is checked
+  sophy check parts.hsml --system Pump";
+
+const NEW_EXAMPLES: &str = "\
+Examples:
+  sophy new hybrid Ball                     prints it
+  sophy new system Heating -o heating.hsml  writes a file
+  sophy new experiment heating -o heating.toml   for the model heating.hsml";
+
 const RUN_EXAMPLES: &str = "\
 Examples:
   sophy run hopper.toml                                    an experiment, with all its settings
-  sophy run hopper.xml --stop 20 --quantum 1e-3 --output hopper.csv --plot hopper.png
+  sophy run hopper.hsml --stop 20 --quantum 1e-3 --output hopper.csv --plot hopper.png
   sophy run hopper.toml --set TAU=20 --plot tau20.html     the experiment with another constant
   sophy run battery.xml --stop 6000 --input Pin=pin.csv --output - | head
   sophy run oscillator.xml --stop 200 --every 0.1 --record 'x*' --output oscillator.parquet
@@ -83,7 +112,7 @@ A CSV result has one row at every event, and two rows of one time at a jump.";
 
 #[derive(Debug, Args)]
 pub(crate) struct Run {
-    /// The model (.xml) or the experiment (.toml)
+    /// The model (.hsml, .xml) or the experiment (.toml)
     pub(crate) file: PathBuf,
 
     /// Stop at this simulated time, s [default: 10]
@@ -109,7 +138,10 @@ pub(crate) struct Run {
     #[arg(long, value_name = "N", help_heading = "Engine")]
     pub(crate) seed: Option<u64>,
 
-    /// Set a constant of the model
+    /// The component to run [default: the SYSTEM of the file, or its only component]
+    #[arg(long, value_name = "NAME", help_heading = "Model")]
+    pub(crate) system: Option<String>,
+    /// Set a parameter of the model
     #[arg(long, value_name = "KNOB=VALUE", value_parser = assignment, help_heading = "Model")]
     pub(crate) set: Vec<(String, f64)>,
     /// Initial value of a state
@@ -185,7 +217,7 @@ pub(crate) enum After {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Stage {
-    /// What the file declares
+    /// What the file and its imports declare, as HSML
     Tree,
     /// The model with its names resolved
     Model,
@@ -195,25 +227,80 @@ pub(crate) enum Stage {
 
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// Models (.xml) and experiments (.toml)
+    /// Models (.hsml, .xml) and experiments (.toml)
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+    /// The component that is to run [default: the SYSTEM of a file, or its only component, if there is one]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) system: Option<String>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Info {
-    /// The model (.xml), or an experiment (.toml) that names it
+    /// The model (.hsml, .xml), or an experiment (.toml) that names it
     pub(crate) file: PathBuf,
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct New {
+    /// What to begin with
+    #[arg(value_enum)]
+    pub(crate) kind: Kind,
+    /// Its name, such as Pump; of an experiment, the name of the model's file without `.hsml`
+    pub(crate) name: String,
+    /// Write this file instead of printing
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write the file even if there is one
+    #[arg(long, requires = "output")]
+    pub(crate) force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Kind {
+    /// A continuous-time component: equations that always hold
+    Ctc,
+    /// A discrete-time component: it executes at instants
+    Dtc,
+    /// A logic-based component: modes and rules
+    Lbc,
+    /// A composite: components and connections
+    Cc,
+    /// A composite without inputs, which a run is started on
+    System,
+    /// A hybrid automaton: locations with their equations, and transitions
+    Hybrid,
+    /// An experiment: what is done with a model
+    Experiment,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Explain {
+    /// The code, such as HS0303, in any letters
+    pub(crate) code: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Fmt {
+    /// HSML files; `-` goes from stdin to stdout
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Only say what is not laid out (exit code 1)
+    #[arg(long)]
+    pub(crate) check: bool,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct Convert {
-    /// A model (.xml) or a result (.csv, .arrow, .parquet, .journal)
+    /// A model (.hsml, .xml) or a result (.csv, .arrow, .parquet, .journal)
     #[arg(value_name = "IN")]
     pub(crate) input: PathBuf,
     /// What to write; the extension tells the format
     #[arg(value_name = "OUT")]
     pub(crate) output: PathBuf,
+    /// The component that becomes SOPHY XML [default: the SYSTEM of the file, or its only component]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) system: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -10,6 +10,7 @@ mod exit;
 mod interrupt;
 mod numbers;
 mod progress;
+mod replace;
 mod terminal;
 
 use clap::Parser;

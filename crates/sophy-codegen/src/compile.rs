@@ -381,5 +381,6 @@ fn place_formulas(memory: &Memory, equations: &mut Equations, logic: &mut Logic)
     }
     for transition in &mut logic.transitions {
         transition.resets.iter_mut().for_each(|(_, formula)| place(formula));
+        transition.emits.iter_mut().filter_map(|emission| emission.when.as_mut()).for_each(place);
     }
 }

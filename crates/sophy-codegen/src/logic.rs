@@ -2,8 +2,8 @@
 
 use crate::blocks::Gather;
 use crate::compile::signs_of;
-use sophy_field::{AutomatonIndex, Guard, GuardStep, Logic, TransitionCode, TriggerCode};
-use sophy_ir::{FlatTrigger, Leaf, Node, NodeId, System, Value, evaluate};
+use sophy_field::{AutomatonIndex, EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode};
+use sophy_ir::{FlatTrigger, Leaf, Node, NodeId, Role, System, Value, evaluate};
 
 /// A guard nests too many conditions.
 pub(crate) struct LogicError {
@@ -19,6 +19,7 @@ pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Log
             .iter()
             .map(|a| a.locations.iter().map(|l| l.transitions.clone()).collect())
             .collect(),
+        follows_flag: system.automata.iter().map(|a| a.role == Role::Flag).collect(),
         ..Logic::default()
     };
     let mut readers: Vec<Vec<AutomatonIndex>> = vec![Vec::new(); system.watches.len()];
@@ -43,14 +44,23 @@ pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Log
         };
         let resets =
             transition.resets.iter().map(|reset| (reset.state, gather.formula(reset.value, true))).collect();
+        let emits = transition
+            .emits
+            .iter()
+            .map(|emission| EmissionCode {
+                receivers: emission.receivers.clone(),
+                when: emission.when.map(|when| gather.formula(when, true)),
+            })
+            .collect();
         logic.transitions.push(TransitionCode {
             automaton: transition.automaton,
             source: transition.source,
             destination: transition.destination,
             trigger,
             resets,
-            emits: transition.emits.iter().flat_map(|(_, receivers)| receivers.iter().copied()).collect(),
+            emits,
             priority: transition.priority,
+            silent: transition.silent,
         });
     }
     logic.automata_of_watch = readers;

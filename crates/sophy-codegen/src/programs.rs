@@ -237,7 +237,7 @@ impl<'a> Compiler<'a> {
             Leaf::Stair(i) => Operand::Scalar(layout.stairs + i.0),
             Leaf::Algebraic(i) => Operand::Jet(self.memory.algebraic(self.side, i.position())),
             // Only models refer to variables; the verifier has seen to it.
-            Leaf::Variable(_) => Operand::Scalar(self.memory.parameters),
+            Leaf::Variable(_) | Leaf::Special(_) => Operand::Scalar(self.memory.parameters),
         }
     }
 
@@ -423,6 +423,7 @@ fn unary_code(function: Unary) -> Code {
         Unary::Abs => Code::Abs,
         Unary::Sign => Code::Sign,
         Unary::Floor => Code::Floor,
+        Unary::Smooth => Code::CopyJ,
     }
 }
 

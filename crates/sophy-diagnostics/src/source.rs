@@ -71,6 +71,11 @@ impl Sources {
         id
     }
 
+    /// All sources, in the order in which they were added.
+    pub fn ids(&self) -> impl Iterator<Item = SourceId> + use<> {
+        (0..self.files.len()).map(|k| SourceId(k as u32))
+    }
+
     /// The name given to [`Sources::add`].
     pub fn name(&self, id: SourceId) -> &str {
         self.files.get(id.0 as usize).map_or("", |file| &file.name)

@@ -24,5 +24,5 @@ pub use index::{
     StairIndex, StateIndex, TransitionIndex, TruthIndex, WatchIndex,
 };
 pub use journal::{Journal, Record};
-pub use logic::{Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
+pub use logic::{EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
 pub use program::{Code, Enclose, Instruction, Operand, Program, Run};

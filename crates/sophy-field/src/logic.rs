@@ -12,6 +12,8 @@ pub struct Logic {
     pub receivers: Vec<AutomatonIndex>,
     /// Per watch: the automata whose guards read it.
     pub automata_of_watch: Vec<Vec<AutomatonIndex>>,
+    /// Per automaton: whether its two locations are the sides of a flag, which it follows.
+    pub follows_flag: Vec<bool>,
 }
 
 /// A transition τ = (q₁, q₂, j, r, e_in, e_out), thesis definition 8.5.
@@ -27,10 +29,21 @@ pub struct TransitionCode {
     pub trigger: TriggerCode,
     /// r: new values of states, read before the micro-step.
     pub resets: Vec<(StateIndex, Formula)>,
-    /// e_out: the input events that receive what is emitted, in the order of emission.
-    pub emits: Vec<EventIndex>,
+    /// e_out: what is emitted, in the order of emission.
+    pub emits: Vec<EmissionCode>,
     /// Smaller goes first.
     pub priority: i32,
+    /// Whether it only keeps the side of a flag: no event, no micro-step.
+    pub silent: bool,
+}
+
+/// What is emitted.
+#[derive(Clone, Debug)]
+pub struct EmissionCode {
+    /// The input events that receive it.
+    pub receivers: Vec<EventIndex>,
+    /// Only if this is not 0 before the micro-step.
+    pub when: Option<Formula>,
 }
 
 /// When a transition is taken.

@@ -1,8 +1,10 @@
 use crate::error::HybridError;
 use crate::livelock::Livelock;
+use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
-    Changes, Engine, Equations, EventIndex, Journal, Logic, Record, TransitionIndex, TriggerCode, WatchIndex,
+    AutomatonIndex, Changes, Engine, Equations, EventIndex, Formula, Guard, Journal, LocationIndex, Logic,
+    Record, TransitionIndex, TriggerCode, WatchIndex,
 };
 use std::collections::VecDeque;
 
@@ -33,21 +35,30 @@ pub struct Counts {
 /// **Micro-steps.** At an instant, micro-steps n = 0, 1, 2 … are taken until nothing is enabled. Each takes
 /// the most urgent group that has something: (0) changes scheduled for the instant (inputs), (1) transitions
 /// whose guard holds, of each automaton at most one, only those of the smallest priority number; (2) events,
-/// one per receiver. All right-hand sides of a micro-step read the values before it. Guards are level-triggered:
-/// they count while they hold, also on entry and at the start.
+/// one per receiver, again only those of the smallest priority number. All right-hand sides of a micro-step
+/// read the values before it. Guards are level-triggered: they count while they hold, also on entry and at the
+/// start.
+///
+/// **Flags.** An event section is an automaton whose locations are the sides of its flag. It begins on the side
+/// the flag has at the start. A flag that a reset puts back on the side it came from has not crossed again: its
+/// automaton goes back without an event.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Events waiting, per automaton.
+    /// Events waiting, per automaton, and the automata for which some wait.
     queues: Vec<VecDeque<EventIndex>>,
+    waiting: Worklist,
     /// Automata whose guards must be looked at.
-    stale: Vec<bool>,
+    stale: Worklist,
     zeno: Vec<Zeno>,
     /// Memory for resets.
     memory: Vec<f64>,
     /// Watches that changed, transitions of a micro-step, and what they change; kept for their memory.
     changed: Vec<WatchIndex>,
     chosen: Vec<TransitionIndex>,
+    emitted: Vec<EventIndex>,
     changes: Changes,
+    /// Event sections that change sides without an event.
+    sides: Changes,
     counts: Counts,
     most_steps: u32,
 }
@@ -58,12 +69,15 @@ impl Control {
         let automata = logic.outgoing.len();
         Control {
             queues: vec![VecDeque::new(); automata],
-            stale: vec![true; automata],
+            waiting: Worklist::empty(automata),
+            stale: Worklist::full(automata),
             zeno: vec![Zeno::default(); automata],
             memory: equations.image.clone(),
             changed: Vec::new(),
             chosen: Vec::new(),
+            emitted: Vec::new(),
             changes: Changes::default(),
+            sides: Changes::default(),
             counts: Counts::default(),
             most_steps: 10_000,
         }
@@ -71,7 +85,24 @@ impl Control {
 
     /// An event from outside, delivered by the next [`Control::react`].
     pub fn post(&mut self, logic: &Logic, event: EventIndex) {
-        self.queues[logic.receivers[event.position()].position()].push_back(event);
+        let receiver = logic.receivers[event.position()];
+        self.queues[receiver.position()].push_back(event);
+        self.waiting.insert(receiver);
+    }
+
+    /// Puts every event section on the side its flag has at the start `t` (s); nothing fires.
+    ///
+    /// # Errors
+    /// [`HybridError`] when the engine cannot go on.
+    pub fn begin(
+        &mut self,
+        engine: &mut dyn Engine,
+        e: &Equations,
+        logic: &Logic,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), HybridError> {
+        self.follow_flags(engine, e, logic, t, journal, |_| true)
     }
 
     /// Counts since the start.
@@ -107,6 +138,8 @@ impl Control {
         }
         loop {
             self.mark_stale(engine, logic);
+            let silent = |t: TransitionIndex| logic.transitions[t.position()].silent;
+            self.follow_flags(engine, e, logic, t, journal, silent)?;
             self.choose_enabled(engine, logic);
             if self.chosen.is_empty() && !self.choose_by_event(engine, logic) {
                 break;
@@ -115,17 +148,18 @@ impl Control {
             if !self.chosen.is_empty() {
                 self.collect_changes(engine, e, logic, t);
                 engine.change(e, t, &self.changes, journal)?;
+                self.put_back(engine, e, logic, t, journal)?;
             }
-            for k in 0..self.chosen.len() {
-                let transition = self.chosen[k];
-                let code = &logic.transitions[transition.position()];
+            for k in 0..self.emitted.len() {
+                self.post(logic, self.emitted[k]);
+            }
+            self.emitted.clear();
+            for &transition in &self.chosen {
+                let automaton = logic.transitions[transition.position()].automaton;
                 taken.push(Taken { time: t, step, transition });
-                self.stale[code.automaton.position()] = true;
+                self.stale.insert(automaton);
                 self.counts.transitions += 1;
-                for &event in &code.emits {
-                    self.post(logic, event);
-                }
-                let zeno = self.zeno[code.automaton.position()].taken(t, transition);
+                let zeno = self.zeno[automaton.position()].taken(t, transition);
                 accumulation = accumulation.or(zeno);
             }
             step += 1;
@@ -147,10 +181,65 @@ impl Control {
         self.changed.clear();
         engine.take_changed(&mut self.changed);
         for watch in &self.changed {
-            for automaton in &logic.automata_of_watch[watch.position()] {
-                self.stale[automaton.position()] = true;
+            for &automaton in &logic.automata_of_watch[watch.position()] {
+                self.stale.insert(automaton);
             }
         }
+    }
+
+    /// Event sections whose flag is on the other side go there without an event, by transitions for which
+    /// `quiet` holds.
+    fn follow_flags(
+        &mut self,
+        engine: &mut dyn Engine,
+        e: &Equations,
+        logic: &Logic,
+        t: f64,
+        journal: &mut Journal,
+        quiet: impl Fn(TransitionIndex) -> bool,
+    ) -> Result<(), HybridError> {
+        let sides = &mut self.sides;
+        sides.clear();
+        self.stale.retain(|automaton| {
+            if logic.follows_flag[automaton.position()] {
+                let location = engine.locations()[automaton.position()];
+                if let Some(transition) = enabled(engine, logic, automaton, location)
+                    && quiet(transition)
+                {
+                    let destination = logic.transitions[transition.position()].destination;
+                    sides.locations.push((automaton, destination));
+                }
+            }
+            true
+        });
+        if !sides.is_empty() {
+            engine.change(e, t, sides, journal)?;
+        }
+        Ok(())
+    }
+
+    /// Event sections that were taken and whose flag is back on the side it came from.
+    fn put_back(
+        &mut self,
+        engine: &mut dyn Engine,
+        e: &Equations,
+        logic: &Logic,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), HybridError> {
+        self.sides.clear();
+        for transition in &self.chosen {
+            let code = &logic.transitions[transition.position()];
+            if logic.follows_flag[code.automaton.position()]
+                && enabled(engine, logic, code.automaton, code.destination).is_some()
+            {
+                self.sides.locations.push((code.automaton, code.source));
+            }
+        }
+        if !self.sides.is_empty() {
+            engine.change(e, t, &self.sides, journal)?;
+        }
+        Ok(())
     }
 
     /// Group 1: of each automaton the first transition whose guard holds; of these, those of the smallest
@@ -158,50 +247,49 @@ impl Control {
     fn choose_enabled(&mut self, engine: &dyn Engine, logic: &Logic) {
         self.chosen.clear();
         let mut least = i32::MAX;
-        for automaton in 0..self.stale.len() {
-            if !self.stale[automaton] {
-                continue;
-            }
-            let location = engine.locations()[automaton].position();
-            let outgoing = &logic.outgoing[automaton][location];
-            let first = outgoing.iter().copied().find(|transition| {
-                match &logic.transitions[transition.position()].trigger {
-                    TriggerCode::When(guard) => guard.holds(|watch| engine.sign(watch)),
-                    TriggerCode::On(..) => false,
-                }
-            });
-            let Some(transition) = first else {
-                self.stale[automaton] = false;
-                continue;
-            };
-            let priority = logic.transitions[transition.position()].priority;
-            if priority < least {
-                self.chosen.clear();
-                least = priority;
-            }
-            if priority == least {
-                self.chosen.push(transition);
-            }
-        }
+        let chosen = &mut self.chosen;
+        self.stale.retain(|automaton| {
+            let location = engine.locations()[automaton.position()];
+            let Some(transition) = enabled(engine, logic, automaton, location) else { return false };
+            keep_urgent(chosen, &mut least, logic.transitions[transition.position()].priority, transition);
+            true
+        });
     }
 
-    /// Group 2: every automaton takes one waiting event; `false` if none waits.
+    /// Group 2: every automaton takes one waiting event, those first whose answer has the smallest priority
+    /// number; `false` if none waits. An event that nothing listens to is gone.
     fn choose_by_event(&mut self, engine: &dyn Engine, logic: &Logic) -> bool {
-        let mut any = false;
-        for automaton in 0..self.queues.len() {
-            let Some(event) = self.queues[automaton].pop_front() else { continue };
-            any = true;
-            let location = engine.locations()[automaton].position();
-            let waiting = logic.outgoing[automaton][location].iter().copied().find(|transition| match &logic
-                .transitions[transition.position()]
-            .trigger
-            {
-                TriggerCode::On(events, guard) => {
-                    events.contains(&event) && guard.holds(|watch| engine.sign(watch))
+        let queues = &self.queues;
+        let (mut least, mut answers, mut unheard) = (i32::MAX, Vec::new(), Vec::new());
+        self.waiting.retain(|automaton| {
+            let Some(&event) = queues[automaton.position()].front() else { return false };
+            let location = engine.locations()[automaton.position()].position();
+            let outgoing = logic.outgoing[automaton.position()][location].iter().copied();
+            let mut listening =
+                outgoing.filter_map(|transition| match &logic.transitions[transition.position()].trigger {
+                    TriggerCode::On(events, guard) if events.contains(&event) => Some((transition, guard)),
+                    _ => None,
+                });
+            let holds = |guard: &Guard| guard.holds(|watch| engine.sign(watch));
+            // One that only its condition keeps from answering has its turn, too.
+            match listening.next() {
+                None => unheard.push((automaton, None)),
+                Some((first, guard)) => {
+                    let answer = if holds(guard) {
+                        Some(first)
+                    } else {
+                        listening.find(|(_, guard)| holds(guard)).map(|(transition, _)| transition)
+                    };
+                    let priority = logic.transitions[answer.unwrap_or(first).position()].priority;
+                    keep_urgent(&mut answers, &mut least, priority, (automaton, answer));
                 }
-                TriggerCode::When(_) => false,
-            });
-            match waiting {
+            }
+            true
+        });
+        let any = !(unheard.is_empty() && answers.is_empty());
+        for (automaton, answer) in unheard.into_iter().chain(answers) {
+            self.queues[automaton.position()].pop_front();
+            match answer {
                 Some(transition) => self.chosen.push(transition),
                 None => self.counts.unused_events += 1,
             }
@@ -209,19 +297,56 @@ impl Control {
         any
     }
 
-    /// The changes of one micro-step, all right-hand sides read before it.
+    /// The changes and events of one micro-step, all right-hand sides read before it.
     fn collect_changes(&mut self, engine: &dyn Engine, e: &Equations, logic: &Logic, t: f64) {
         self.changes.clear();
         for transition in &self.chosen {
             let code = &logic.transitions[transition.position()];
             for (state, formula) in &code.resets {
-                for &source in e.sources(&formula.sources) {
-                    self.memory[e.layout.series_of(source)] = engine.value(source, t);
-                }
-                let [value, ..] = e.formula(formula, engine.locations(), &mut self.memory, 1);
+                let value = evaluate(engine, e, formula, t, &mut self.memory);
                 self.changes.states.push((*state, value));
             }
             self.changes.locations.push((code.automaton, code.destination));
+            for emission in &code.emits {
+                let mut value = |formula| evaluate(engine, e, formula, t, &mut self.memory);
+                if emission.when.as_ref().is_none_or(|when| value(when) != 0.0) {
+                    self.emitted.extend(&emission.receivers);
+                }
+            }
         }
     }
+}
+
+/// The first transition out of a location whose guard holds.
+fn enabled(
+    engine: &dyn Engine,
+    logic: &Logic,
+    automaton: AutomatonIndex,
+    location: LocationIndex,
+) -> Option<TransitionIndex> {
+    let outgoing = &logic.outgoing[automaton.position()][location.position()];
+    outgoing.iter().copied().find(|transition| match &logic.transitions[transition.position()].trigger {
+        TriggerCode::When(guard) => guard.holds(|watch| engine.sign(watch)),
+        TriggerCode::On(..) => false,
+    })
+}
+
+/// Keeps in `kept` what has the smallest priority number so far, which is `least`.
+fn keep_urgent<T>(kept: &mut Vec<T>, least: &mut i32, priority: i32, item: T) {
+    if priority < *least {
+        kept.clear();
+        *least = priority;
+    }
+    if priority == *least {
+        kept.push(item);
+    }
+}
+
+/// A formula at an instant.
+fn evaluate(engine: &dyn Engine, e: &Equations, formula: &Formula, t: f64, memory: &mut [f64]) -> f64 {
+    for &source in e.sources(&formula.sources) {
+        memory[e.layout.series_of(source)] = engine.value(source, t);
+    }
+    let [value, ..] = e.formula(formula, engine.locations(), memory, 1);
+    value
 }

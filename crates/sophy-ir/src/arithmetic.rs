@@ -28,6 +28,8 @@ pub enum Unary {
     Abs,
     Sign,
     Floor,
+    /// The number itself: switches inside are no events.
+    Smooth,
 }
 
 /// A function of two numbers.
@@ -80,6 +82,7 @@ impl Unary {
             Unary::Abs => "abs",
             Unary::Sign => "sign",
             Unary::Floor => "floor",
+            Unary::Smooth => "smooth",
         }
     }
 
@@ -113,6 +116,7 @@ impl Unary {
             }
             Unary::Sign => sign(x),
             Unary::Floor => x.floor(),
+            Unary::Smooth => x,
         }
     }
 }

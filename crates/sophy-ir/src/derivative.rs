@@ -71,6 +71,7 @@ impl Graph {
         let slope = match function {
             Unary::Negate => return Some(self.unary(Unary::Negate, da)),
             Unary::Sign | Unary::Floor => return None,
+            Unary::Smooth => return Some(da),
             Unary::Sin => self.unary(Unary::Cos, a),
             Unary::Cos => {
                 let sine = self.unary(Unary::Sin, a);

@@ -1,5 +1,5 @@
 use crate::arithmetic::{Binary, Comparison, Unary, integer_power};
-use crate::model::VariableId;
+use crate::class::VariableId;
 use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
 use std::collections::{HashMap, HashSet};
 
@@ -14,11 +14,15 @@ impl NodeId {
     }
 }
 
-/// What an expression can refer to. A [`crate::Model`] uses `Variable`, a [`crate::System`] the rest.
+/// What an expression can refer to. A [`crate::Class`] uses `Variable`, `Special` and
+/// `Time`, a [`crate::System`] `Time` and the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Leaf {
-    /// A variable of a model, by its declaration.
+    /// A variable of a class.
     Variable(VariableId),
+    /// Something else an expression of a class reads, by its place in [`crate::Class::specials`]; in a
+    /// [`crate::System`] what cannot be run yet, by its place in [`crate::System::awaits`].
+    Special(u32),
     /// A parameter.
     Parameter(ParameterIndex),
     /// A continuous state.
@@ -249,10 +253,19 @@ impl Graph {
     /// All nodes that `roots` need, operands before users, each once. The work is that of what is found, not
     /// of the whole graph.
     pub fn reachable(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
+        self.found(roots, |_| true)
+    }
+
+    /// The same without what is inside of `smooth(…)`: the switches there are no events.
+    pub fn reachable_switches(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
+        self.found(roots, |id| !matches!(self.node(id), Node::Unary(Unary::Smooth, _)))
+    }
+
+    fn found(&self, roots: impl IntoIterator<Item = NodeId>, enter: impl Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut seen: HashSet<NodeId> = HashSet::new();
         let mut pending: Vec<NodeId> = roots.into_iter().collect();
         while let Some(id) = pending.pop() {
-            if seen.insert(id) {
+            if seen.insert(id) && enter(id) {
                 self.operands(id, |operand| pending.push(operand));
             }
         }

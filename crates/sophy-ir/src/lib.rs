@@ -2,8 +2,8 @@
 //!
 //! - [`Graph`]: hash-consed expressions; [`Graph::derivative`], [`Graph::affine`],
 //!   [`Graph::dependencies`], [`evaluate`].
-//! - [`Model`]: what was written: components with their variables, locations and transitions, and how they
-//!   are connected.
+//! - [`Model`]: what was written: classes of components with their variables, locations and transitions, and
+//!   composites that say how many copies of which there are and how they are connected.
 //! - [`System`]: what is run: one flat hybrid system whose names are typed indices.
 //! - [`arithmetic`]: the one meaning of every operation, used by folding, interpreter and tests.
 //!
@@ -11,6 +11,7 @@
 
 mod affine;
 pub mod arithmetic;
+mod class;
 mod dependencies;
 mod derivative;
 mod display;
@@ -19,16 +20,20 @@ mod graph;
 mod model;
 mod model_text;
 mod system;
+mod system_text;
 
 pub use affine::Affine;
 pub use arithmetic::{Binary, Comparison, Unary};
+pub use class::{
+    Actions, Assignment, Body, Class, ClassIndex, Clock, Composite, Constraint, Discrete, Emission, Equation,
+    EventEnd, EventPort, EventSection, EventWire, HybridAutomaton, Location, Member, Port, Rule, Sources,
+    Special, Transition, Trigger, Variable, VariableId, VariableKind, Wire,
+};
 pub use evaluate::{Value, evaluate};
 pub use graph::{Graph, Leaf, Node, NodeId};
-pub use model::{
-    Component, ComponentIndex, Connection, Equation, EventConnection, Location, Model, Port, Reset,
-    Transition, Trigger, Variable, VariableId, VariableKind,
-};
+pub use model::{Interpolation, Model, Quantity, Table};
 pub use system::{
-    Algebraic, Automaton, Event, FlatLocation, FlatReset, FlatTransition, FlatTrigger, Input, Output,
-    Parameter, Receiver, Row, Stair, State, System, Truth, VerifyError, Watch,
+    Algebraic, Automaton, Awaited, Event, EventInput, Feature, FlatEmission, FlatLocation, FlatReset,
+    FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Receiver, Role, Row, Stair, State, System,
+    Truth, VerifyError, Watch,
 };

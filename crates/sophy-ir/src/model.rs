@@ -1,211 +1,102 @@
-use crate::graph::{Graph, NodeId};
-use sophy_diagnostics::Span;
+use crate::class::{Class, ClassIndex, VariableId, VariableKind};
 
-/// A variable of a [`Model`], by its place in [`Model::variables`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct VariableId(pub u32);
-
-/// A component of a [`Model`], by its place in [`Model::components`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ComponentIndex(pub u32);
-
-/// What was written, names resolved and checked: hybrid automata side by side and how they are connected.
+/// What was written, names resolved and checked: classes of components, and which of them a run is started on.
 ///
-/// A model that exists is correct: it can be flattened and run once its inputs are given. Each component is
-/// the tuple of thesis definitions 8.1–8.5.
+/// A model that exists is correct: it can be flattened and run once its inputs are given. Copies of a component
+/// are not stored: a composite names its members and how many copies there are of each, and every copy refers to
+/// the one class. A model that is a single component has no composite; its variables have no prefix.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// Name of the whole.
+    /// All classes; members come before the composites that hold them.
+    pub classes: Vec<Class>,
+    /// What a run is started on.
+    pub root: ClassIndex,
+    /// Texts that strings can be, by number (see [`Quantity::Text`]).
+    pub texts: Vec<String>,
+    /// Tables and signal files, by number.
+    pub tables: Vec<Table>,
+}
+
+/// What kind of value a variable has. In expressions every value is a number or a truth value; texts are
+/// numbered by [`Model::texts`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// A real number.
+    #[default]
+    Real,
+    /// A whole number.
+    Integer,
+    /// `true` or `false`; 1 or 0 where it is stored.
+    Boolean,
+    /// One of the model's texts.
+    Text,
+}
+
+/// Values over a grid: a column of a file over another one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// File and column, for messages.
     pub name: String,
-    /// What it is, in the author's words.
-    pub documentation: String,
-    /// All expressions; their leaves are [`crate::Leaf::Variable`] and [`crate::Leaf::Time`].
-    pub graph: Graph,
-    /// All variables, component by component, in written order.
-    pub variables: Vec<Variable>,
-    /// All components, in written order.
-    pub components: Vec<Component>,
-    /// Signal connections.
-    pub connections: Vec<Connection>,
-    /// Event connections.
-    pub event_connections: Vec<EventConnection>,
+    /// Strictly increasing.
+    pub knots: Vec<f64>,
+    /// One per knot.
+    pub values: Vec<f64>,
+    /// What holds between the knots.
+    pub between: Interpolation,
+    /// What holds beyond the last knot: the last value if `true`, else nothing, and a run that gets there stops.
+    pub extends: bool,
 }
 
-/// A named quantity.
-#[derive(Clone, Debug)]
-pub struct Variable {
-    /// Name within its component.
-    pub name: String,
-    /// The component it belongs to.
-    pub component: ComponentIndex,
-    /// What it is.
-    pub kind: VariableKind,
-    /// Unit as written, for labels.
-    pub unit: Option<String>,
-    /// What it means, in the author's words.
-    pub documentation: String,
-    /// Where it is declared.
-    pub span: Option<Span>,
-}
-
-/// The kinds of variables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum VariableKind {
-    /// A constant an experiment may set (a knob); the node refers to parameters only.
-    Parameter(NodeId),
-    /// A continuous state; the node is its initial value, over parameters (and inputs).
-    State(Option<NodeId>),
-    /// Given from outside or by a connection.
-    Input,
-    /// Defined by every location's `outputs`.
-    Output,
-}
-
-/// One hybrid automaton. A purely continuous component has a single location.
-#[derive(Clone, Debug, Default)]
-pub struct Component {
-    /// Name; empty for a model that is a single component.
-    pub name: String,
-    /// What it is, in the author's words.
-    pub documentation: String,
-    /// At least one, in written order.
-    pub locations: Vec<Location>,
-    /// Position of the location a run starts in.
-    pub initial_location: usize,
-    /// Event labels it receives, sorted.
-    pub input_events: Vec<String>,
-    /// Event labels it emits, sorted.
-    pub output_events: Vec<String>,
-}
-
-/// A location q with its f_q, g_q and outgoing transitions.
-#[derive(Clone, Debug, Default)]
-pub struct Location {
-    /// Name.
-    pub name: String,
-    /// What it is, in the author's words.
-    pub documentation: String,
-    /// Where its name stands.
-    pub span: Option<Span>,
-    /// `der(state) = right`, one for every state that does not rest here.
-    pub dynamics: Vec<Equation>,
-    /// `output = right`, one for every output of the component.
-    pub outputs: Vec<Equation>,
-    /// In written order.
-    pub transitions: Vec<Transition>,
-}
-
-/// A variable and what it (or its derivative) equals.
-#[derive(Clone, Debug)]
-pub struct Equation {
-    /// The state or output.
-    pub variable: VariableId,
-    /// Right-hand side.
-    pub right: NodeId,
-    /// Where the right-hand side stands.
-    pub span: Option<Span>,
-}
-
-/// When a transition is taken.
-#[derive(Clone, Debug)]
-pub enum Trigger {
-    /// While the condition holds, also on entry.
-    When(NodeId),
-    /// When one of the events arrives and the condition, if any, holds.
-    On {
-        /// Labels.
-        events: Vec<String>,
-        /// Condition.
-        guard: Option<NodeId>,
-    },
-}
-
-/// A transition τ = (q₁, q₂, j, r, e_in, e_out) of thesis definition 8.5.
-#[derive(Clone, Debug)]
-pub struct Transition {
-    /// Name as written.
-    pub name: String,
-    /// What it is, in the author's words.
-    pub documentation: String,
-    /// Where it stands.
-    pub span: Option<Span>,
-    /// When it is taken.
-    pub trigger: Trigger,
-    /// Position of the destination in its component.
-    pub destination: usize,
-    /// New values of states, all read before the transition.
-    pub resets: Vec<Reset>,
-    /// Labels emitted.
-    pub emits: Vec<String>,
-    /// Smaller goes first.
-    pub priority: i32,
-}
-
-/// `state := right` when a transition is taken.
-#[derive(Clone, Debug)]
-pub struct Reset {
-    /// The state.
-    pub state: VariableId,
-    /// Its new value, from the values before.
-    pub right: NodeId,
-    /// Where the right-hand side stands.
-    pub span: Option<Span>,
-}
-
-/// An output feeds an input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Connection {
-    /// An output.
-    pub from: VariableId,
-    /// An input.
-    pub to: VariableId,
-}
-
-/// An event label of a component.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Port {
-    /// The component.
-    pub component: ComponentIndex,
-    /// The label there.
-    pub label: String,
-}
-
-/// An emitted label is received.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EventConnection {
-    /// Emitting side.
-    pub from: Port,
-    /// Receiving side.
-    pub to: Port,
+/// What a table is between its knots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Interpolation {
+    /// The value at the knot before.
+    Hold,
+    /// A straight line.
+    Linear,
+    /// A natural cubic spline.
+    Cubic,
 }
 
 impl Model {
+    /// A class.
+    pub fn class(&self, index: ClassIndex) -> &Class {
+        &self.classes[index.0 as usize]
+    }
+
+    /// The class a run is started on.
+    pub fn root(&self) -> &Class {
+        self.class(self.root)
+    }
+
+    /// Name of the whole.
+    pub fn name(&self) -> &str {
+        self.classes.get(self.root.0 as usize).map_or("", |class| &class.name)
+    }
+
+    /// The number of a text, entered if it is new.
+    pub fn text_number(texts: &mut Vec<String>, text: &str) -> usize {
+        texts.iter().position(|known| known == text).unwrap_or_else(|| {
+            texts.push(text.to_owned());
+            texts.len() - 1
+        })
+    }
+}
+
+impl Class {
     /// A variable.
-    pub fn variable(&self, id: VariableId) -> &Variable {
+    pub fn variable(&self, id: VariableId) -> &crate::Variable {
         &self.variables[id.0 as usize]
     }
 
-    /// `component.name`, or `name` alone in a model of one nameless component.
-    pub fn full_name(&self, id: VariableId) -> String {
-        let variable = self.variable(id);
-        match self.components.get(variable.component.0 as usize) {
-            Some(component) if !component.name.is_empty() => {
-                format!("{}.{}", component.name, variable.name)
-            }
-            _ => variable.name.clone(),
-        }
+    /// Ids of all variables that satisfy `kind`, in written order.
+    pub fn variables_of(&self, kind: impl Fn(VariableKind) -> bool) -> impl Iterator<Item = VariableId> {
+        let numbered = self.variables.iter().enumerate();
+        numbered.filter(move |(_, v)| kind(v.kind)).map(|(position, _)| VariableId(position as u32))
     }
 
-    /// Ids of all variables of a component that satisfy `kind`, in written order.
-    pub fn variables_of(
-        &self,
-        component: ComponentIndex,
-        kind: impl Fn(VariableKind) -> bool,
-    ) -> impl Iterator<Item = VariableId> {
-        self.variables
-            .iter()
-            .enumerate()
-            .filter(move |(_, v)| v.component == component && kind(v.kind))
-            .map(|(position, _)| VariableId(position as u32))
+    /// The variable of a name.
+    pub fn variable_named(&self, name: &str) -> Option<VariableId> {
+        self.variables.iter().position(|v| v.name == name).map(|position| VariableId(position as u32))
     }
 }

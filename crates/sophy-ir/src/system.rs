@@ -1,5 +1,7 @@
 use crate::arithmetic::Comparison;
+use crate::class::{ClassIndex, VariableId};
 use crate::graph::{Graph, Leaf, Node, NodeId};
+use crate::model::Quantity;
 use sophy_diagnostics::Span;
 use sophy_field::{
     AutomatonIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex,
@@ -41,6 +43,112 @@ pub struct System {
     pub truths: Vec<Truth>,
     /// Staircases.
     pub stairs: Vec<Stair>,
+    /// Assignments at the start, after declared values, in an order in which each follows what it reads.
+    pub initial: Vec<FlatReset>,
+    /// Input events of the whole that members receive under other names.
+    pub event_inputs: Vec<EventInput>,
+    /// Texts that strings can be, by number.
+    pub texts: Vec<String>,
+    /// What was checked but cannot be run yet; a run of a system that awaits something is refused.
+    pub awaits: Vec<Awaited>,
+}
+
+/// A part of a model that this version checks but cannot run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Awaited {
+    /// What kind of thing it is.
+    pub what: Feature,
+    /// The component, without the numbers of copies; empty for a model of one nameless component.
+    pub component: String,
+    /// As it is written: an expression, a transition, a rule …
+    pub text: String,
+    /// Where it stands.
+    pub span: Option<Span>,
+}
+
+/// What this version checks but cannot run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Feature {
+    /// A component that executes at instants it announces.
+    DiscreteTime,
+    /// A component whose reactions are delayed as a whole.
+    LogicDelay,
+    /// A rule.
+    Rule,
+    /// A transition at random.
+    Rate,
+    /// A transition taken together with others.
+    Synchronised,
+    /// A transition that answers an invariant, or the invariant itself.
+    Invariant,
+    /// An action that keeps the motion on a surface.
+    Hold,
+    /// An equation that is solved for what is not defined otherwise.
+    Constraint,
+    /// `delayed(…)`.
+    Delayed,
+    /// `noise(…)`.
+    Noise,
+    /// `chance(…)`.
+    Chance,
+    /// An event, `rises(…)`, `falls(…)` or `changes(…)` in an expression.
+    Edge,
+    /// `never`.
+    Never,
+    /// A table.
+    Table,
+}
+
+impl Feature {
+    /// What it is, as the predicate of a sentence.
+    pub fn text(self) -> &'static str {
+        match self {
+            Feature::DiscreteTime => "a discrete-time component",
+            Feature::LogicDelay => "a logic component with a delay",
+            Feature::Rule => "a rule",
+            Feature::Rate => "a transition at random",
+            Feature::Synchronised => "a synchronised transition",
+            Feature::Invariant => "an invariant",
+            Feature::Hold => "a motion held on a surface",
+            Feature::Constraint => "a constraint",
+            Feature::Delayed => "a transport delay",
+            Feature::Noise => "noise",
+            Feature::Chance => "a random choice",
+            Feature::Edge => "an edge in an expression",
+            Feature::Never => "an instant that does not come",
+            Feature::Table => "a table",
+        }
+    }
+}
+
+/// One sentence: what of which component it is.
+impl fmt::Display for Awaited {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (what, component, text) = (self.what.text(), &self.component, &self.text);
+        match (self.what, component.is_empty()) {
+            (Feature::DiscreteTime, false) => write!(f, "`{component}` is {what}"),
+            (_, false) => write!(f, "`{text}` of `{component}` is {what}"),
+            (_, true) => write!(f, "`{text}` is {what}"),
+        }
+    }
+}
+
+/// An input event of the whole, passed on to members.
+#[derive(Clone, Debug)]
+pub struct EventInput {
+    /// The label.
+    pub name: String,
+    /// Who receives it.
+    pub receivers: Vec<EventIndex>,
+}
+
+/// Where something was declared, for what else is said there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// The class.
+    pub class: ClassIndex,
+    /// The variable there.
+    pub variable: VariableId,
 }
 
 /// A constant or knob.
@@ -52,6 +160,10 @@ pub struct Parameter {
     pub value: NodeId,
     /// Unit as written.
     pub unit: Option<String>,
+    /// Whether it is part of the interface.
+    pub knob: bool,
+    /// Its declaration.
+    pub origin: Origin,
     /// Where it is declared.
     pub span: Option<Span>,
 }
@@ -63,21 +175,35 @@ pub struct Input {
     pub name: String,
     /// Unit as written.
     pub unit: Option<String>,
+    /// Kind of its values.
+    pub quantity: Quantity,
+    /// Its declaration.
+    pub origin: Origin,
     /// Where it is declared.
     pub span: Option<Span>,
 }
 
-/// A continuous state.
+/// A state: continuous, or one that changes at instants only (its rate is 0 everywhere).
 #[derive(Clone, Debug)]
 pub struct State {
     /// Full name.
     pub name: String,
     /// Unit as written.
     pub unit: Option<String>,
+    /// Kind of its values.
+    pub quantity: Quantity,
+    /// Whether it changes at instants only: a mode, or what a discrete-time component keeps.
+    pub discrete: bool,
+    /// Texts it can have, where they were declared; empty if any.
+    pub choices: Vec<usize>,
     /// Initial value over parameters; `None` when the experiment must give it.
     pub initial: Option<NodeId>,
+    /// For a mode that nothing initialises: the flag whose sign (−1 or +1) it starts with.
+    pub sign_of: Option<NodeId>,
     /// Its time derivative.
     pub rate: Row,
+    /// Its declaration.
+    pub origin: Origin,
     /// Where it is declared.
     pub span: Option<Span>,
 }
@@ -111,8 +237,28 @@ pub struct Output {
     pub name: String,
     /// Unit as written.
     pub unit: Option<String>,
+    /// Kind of its values.
+    pub quantity: Quantity,
+    /// Texts it can have, where they were declared; empty if any.
+    pub choices: Vec<usize>,
+    /// Whether it is only to be looked at: no output of the interface.
+    pub view: bool,
     /// Its value.
     pub value: Row,
+    /// Its declaration.
+    pub origin: Origin,
+}
+
+/// What an automaton stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A component, with the locations that were written.
+    Component,
+    /// An event section: two locations, the sides of its flag. It is set to the side of the flag at the start,
+    /// and after a reset of its own that put the flag back; none of this is an event.
+    Flag,
+    /// Nothing of its own: it owns the rows of what has no locations.
+    Owner,
 }
 
 /// A hybrid automaton.
@@ -120,6 +266,8 @@ pub struct Output {
 pub struct Automaton {
     /// Name of the component; empty in a model of one nameless component.
     pub name: String,
+    /// What it stands for; only components show their location.
+    pub role: Role,
     /// Its locations.
     pub locations: Vec<FlatLocation>,
     /// Where a run starts.
@@ -174,12 +322,25 @@ pub struct FlatTransition {
     pub trigger: FlatTrigger,
     /// New values of states.
     pub resets: Vec<FlatReset>,
-    /// Labels emitted, with who receives each.
-    pub emits: Vec<(String, Vec<EventIndex>)>,
+    /// What is emitted, in order.
+    pub emits: Vec<FlatEmission>,
     /// Smaller goes first.
     pub priority: i32,
+    /// Whether it only keeps the side of a flag: no event, no micro-step.
+    pub silent: bool,
     /// Where it stands.
     pub span: Option<Span>,
+}
+
+/// `emit label`.
+#[derive(Clone, Debug)]
+pub struct FlatEmission {
+    /// The label.
+    pub label: String,
+    /// Who receives it.
+    pub receivers: Vec<EventIndex>,
+    /// Only if this holds before the micro-step; switches inside it are plain.
+    pub when: Option<NodeId>,
 }
 
 /// `state := value`, read before the micro-step.
@@ -274,6 +435,7 @@ impl System {
         let named = |name: Option<&String>| name.cloned().unwrap_or_else(|| "?".to_owned());
         match leaf {
             Leaf::Variable(id) => format!("v{}", id.0),
+            Leaf::Special(i) => named(self.awaits.get(i as usize).map(|awaited| &awaited.text)),
             Leaf::Parameter(i) => named(self.parameters.get(i.position()).map(|p| &p.name)),
             Leaf::State(i) => named(self.states.get(i.position()).map(|s| &s.name)),
             Leaf::Input(i) => named(self.inputs.get(i.position()).map(|u| &u.name)),
@@ -355,7 +517,7 @@ impl System {
             .flat_map(|s| &s.rate.by_location)
             .chain(self.algebraics.iter().flat_map(|z| &z.value.by_location))
             .chain(self.watches.iter().map(|w| &w.difference));
-        for id in self.graph.reachable(smooth.copied()) {
+        for id in self.graph.reachable_switches(smooth.copied()) {
             match self.graph.node(id) {
                 Node::Compare(..) if !self.is_parametric(id) => {
                     return fail(format!("`{}` was not lifted", self.text(id)));
@@ -379,6 +541,29 @@ impl System {
                     return fail(format!("transition `{}` has no such location", transition.name));
                 }
             }
+            if transition.silent && !(transition.resets.is_empty() && transition.emits.is_empty()) {
+                return fail(format!("transition `{}` is silent and does something", transition.name));
+            }
+            let receivers = transition.emits.iter().flat_map(|emission| &emission.receivers);
+            if let Some(event) = receivers.into_iter().find(|e| e.position() >= self.events.len()) {
+                return fail(format!("transition `{}` emits {event}, which does not exist", transition.name));
+            }
+        }
+        let resets = self.transitions.iter().flat_map(|t| &t.resets).chain(&self.initial);
+        if let Some(reset) = resets.into_iter().find(|r| r.state.position() >= self.states.len()) {
+            return fail(format!("{} is assigned and does not exist", reset.state));
+        }
+        for automaton in self.automata.iter().filter(|automaton| automaton.role == Role::Flag) {
+            if automaton.locations.len() != 2 || automaton.locations.iter().any(|l| l.transitions.len() != 1)
+            {
+                return fail(format!("a flag of `{}` does not have two sides", automaton.name));
+            }
+        }
+        for state in self.states.iter().filter(|state| state.discrete) {
+            let rests = |&node: &NodeId| self.graph.as_number(node) == Some(0.0);
+            if !state.rate.by_location.iter().all(rests) {
+                return fail(format!("`{}` changes at instants only and has a rate", state.name));
+            }
         }
         Ok(())
     }
@@ -386,6 +571,7 @@ impl System {
     fn verify_leaf(&self, leaf: Leaf) -> Result<(), VerifyError> {
         let inside = match leaf {
             Leaf::Variable(_) => false,
+            Leaf::Special(i) => (i as usize) < self.awaits.len(),
             Leaf::Parameter(i) => i.position() < self.parameters.len(),
             Leaf::State(i) => i.position() < self.states.len(),
             Leaf::Input(i) => i.position() < self.inputs.len(),
@@ -425,84 +611,5 @@ impl System {
         }
         self.truths.push(truth);
         TruthIndex::new(self.truths.len() - 1)
-    }
-}
-
-/// The text form: everything with names, in the order of the tables (`--emit system`).
-impl fmt::Display for System {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let unit = |unit: &Option<String>| unit.as_ref().map(|u| format!(" \"{u}\"")).unwrap_or_default();
-        writeln!(f, "system {}", self.name)?;
-        for p in &self.parameters {
-            writeln!(f, "  parameter {} = {}{}", p.name, self.text(p.value), unit(&p.unit))?;
-        }
-        for u in &self.inputs {
-            writeln!(f, "  input {}{}", u.name, unit(&u.unit))?;
-        }
-        for (index, s) in self.states.iter().enumerate() {
-            let initial = s.initial.map(|i| format!(" := {}", self.text(i))).unwrap_or_default();
-            writeln!(f, "  state x{index} {}{initial}{}", s.name, unit(&s.unit))?;
-            self.write_row(f, &format!("der({})", s.name), &s.rate)?;
-        }
-        for z in &self.algebraics {
-            writeln!(f, "  algebraic {}", z.name)?;
-            self.write_row(f, &z.name, &z.value)?;
-        }
-        for y in &self.outputs {
-            writeln!(f, "  output {}{}", y.name, unit(&y.unit))?;
-            self.write_row(f, &y.name, &y.value)?;
-        }
-        for (index, w) in self.watches.iter().enumerate() {
-            let kind = if w.affine { "affine" } else { "enclosed" };
-            writeln!(f, "  watch w{index} {} ({kind})", self.text(w.difference))?;
-        }
-        for (index, a) in self.automata.iter().enumerate() {
-            writeln!(f, "  automaton a{index} {}", a.name)?;
-            for (position, location) in a.locations.iter().enumerate() {
-                let initial = if a.initial.position() == position { " (initial)" } else { "" };
-                writeln!(f, "    location {}{initial}", location.name)?;
-                for &t in &location.transitions {
-                    let t = &self.transitions[t.position()];
-                    let to = &a.locations[t.destination.position()].name;
-                    writeln!(f, "      {} {} -> {to}", t.name, self.trigger_text(&t.trigger))?;
-                    for reset in &t.resets {
-                        let state = &self.states[reset.state.position()].name;
-                        writeln!(f, "        {state} := {}", self.text(reset.value))?;
-                    }
-                    for (label, _) in &t.emits {
-                        writeln!(f, "        emit {label}")?;
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-impl System {
-    fn write_row(&self, f: &mut fmt::Formatter<'_>, left: &str, row: &Row) -> fmt::Result {
-        if row.is_constant() {
-            return match row.by_location.first() {
-                Some(&node) => writeln!(f, "    {left} = {}", self.text(node)),
-                None => Ok(()),
-            };
-        }
-        let owner = &self.automata[row.owner.position()];
-        for (location, &node) in owner.locations.iter().zip(&row.by_location) {
-            writeln!(f, "    {}: {left} = {}", location.name, self.text(node))?;
-        }
-        Ok(())
-    }
-
-    /// `when GUARD` or `on EVENT when GUARD`.
-    pub fn trigger_text(&self, trigger: &FlatTrigger) -> String {
-        match trigger {
-            FlatTrigger::When(guard) => format!("when {}", self.text(*guard)),
-            FlatTrigger::On { events, guard } => {
-                let names: Vec<_> = events.iter().map(|e| self.events[e.position()].name.clone()).collect();
-                let guard = guard.map(|g| format!(" when {}", self.text(g))).unwrap_or_default();
-                format!("on {}{guard}", names.join(", "))
-            }
-        }
     }
 }

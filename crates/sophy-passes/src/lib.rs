@@ -6,6 +6,6 @@ mod flatten;
 mod lift;
 mod pipeline;
 
-pub use flatten::{FlattenError, flatten};
+pub use flatten::{FlattenError, LoopEquation, flatten};
 pub use lift::lift_kinks;
 pub use pipeline::{PIPELINE, Pass, PassError, lower};

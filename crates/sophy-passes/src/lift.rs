@@ -57,7 +57,7 @@ impl Lifter<'_> {
     }
 
     fn lift(&mut self, root: NodeId) -> NodeId {
-        for id in self.system.graph.reachable([root]) {
+        for id in self.system.graph.reachable_switches([root]) {
             if !self.lifted.contains_key(&id) {
                 let lifted = self.node(id);
                 self.lifted.insert(id, lifted);
@@ -76,6 +76,7 @@ impl Lifter<'_> {
                 let (a, b) = (of(self, a), of(self, b));
                 self.compare(comparison, a, b)
             }
+            Node::Unary(Unary::Smooth, _) => id,
             Node::Unary(Unary::Abs, a) => {
                 let a = of(self, a);
                 let zero = self.system.graph.number(0.0);
@@ -112,6 +113,8 @@ impl Lifter<'_> {
     fn is_parametric(&mut self, id: NodeId) -> bool {
         let known = match self.system.graph.node(id) {
             Node::Leaf(leaf) => matches!(leaf, Leaf::Parameter(_)),
+            // What is inside was not looked at.
+            Node::Unary(Unary::Smooth, _) => false,
             _ => {
                 let mut all = true;
                 self.system.graph.operands(id, |operand| all &= self.parametric[&operand]);

@@ -5,7 +5,7 @@ use crate::inputs;
 use sophy_codegen::Parameters;
 use sophy_diagnostics::closest;
 use sophy_field::{EventIndex, InputIndex, LocationIndex};
-use sophy_ir::{Leaf, System, Value, evaluate};
+use sophy_ir::{Automaton, Role, System};
 use sophy_solvers::Quantum;
 
 /// What an experiment says, in indices.
@@ -67,12 +67,17 @@ pub(crate) fn configure(
     };
     let mut events = Vec::new();
     for (time, label) in &experiment.events {
-        let receivers: Vec<EventIndex> = (0..system.events.len())
+        let mut receivers: Vec<EventIndex> = (0..system.events.len())
             .filter(|&i| system.events[i].name == *label || system.events[i].label == *label)
             .map(EventIndex::new)
             .collect();
-        if receivers.is_empty() {
-            collect(Err(unknown("input_events", "input event", label, &names(&system.events, |e| &e.name))));
+        // An event of the whole, which members may know by another name.
+        if let Some(port) = system.event_inputs.iter().find(|port| port.name == *label) {
+            receivers.clone_from(&port.receivers);
+        } else if receivers.is_empty() {
+            let mut known = names(&system.event_inputs, |port| &port.name);
+            known.extend(names(&system.events, |event| &event.name));
+            collect(Err(unknown("input_events", "input event", label, &known)));
         }
         events.extend(receivers.into_iter().map(|event| (*time, event)));
     }
@@ -134,13 +139,11 @@ fn initial_location(
     location: &str,
     locations: &mut [LocationIndex],
 ) -> Result<(), ExperimentError> {
-    let Some(position) = system.automata.iter().position(|a| a.name == component) else {
-        return Err(unknown(
-            "initial_location",
-            "component",
-            component,
-            &names(&system.automata, |a| &a.name),
-        ));
+    let is_meant = |a: &Automaton| a.role == Role::Component && a.name == component;
+    let Some(position) = system.automata.iter().position(is_meant) else {
+        let components = system.automata.iter().filter(|a| a.role == Role::Component);
+        let known: Vec<&str> = components.map(|a| a.name.as_str()).collect();
+        return Err(unknown("initial_location", "component", component, &known));
     };
     let automaton = &system.automata[position];
     match automaton.locations.iter().position(|l| l.name == location) {
@@ -186,51 +189,6 @@ fn input_signals(
         }
     }
     if errors.is_empty() { Ok(signals) } else { Err(errors) }
-}
-
-/// Initial values: those of the experiment, else those of the model.
-pub(crate) fn initial_states(
-    system: &System,
-    experiment: &Experiment,
-    parameters: &[f64],
-    inputs: &[[f64; 2]],
-) -> Result<Vec<f64>, Vec<ExperimentError>> {
-    let mut errors = Vec::new();
-    let mut leaf = |leaf: Leaf| {
-        Value::Real(match leaf {
-            Leaf::Parameter(i) => parameters.get(i.position()).copied().unwrap_or(f64::NAN),
-            Leaf::Input(i) => inputs.get(i.position()).map_or(f64::NAN, |line| line[0]),
-            Leaf::Time => experiment.start,
-            _ => f64::NAN,
-        })
-    };
-    let mut values = Vec::with_capacity(system.states.len());
-    for state in &system.states {
-        let given = experiment.initial.iter().rev().find(|(name, _)| *name == state.name);
-        let value = match (given, state.initial) {
-            (Some((_, value)), _) => Some(*value),
-            (None, Some(node)) => Some(evaluate(&system.graph, node, &mut leaf).real()),
-            (None, None) => None,
-        };
-        let name = &state.name;
-        match value {
-            Some(value) if value.is_finite() => values.push(value),
-            Some(value) => errors.push(ExperimentError::new(
-                format!("initial.{name}"),
-                format!("the initial value of state `{name}` is {value}"),
-            )),
-            None => errors.push(
-                ExperimentError::new(
-                    format!("initial.{name}"),
-                    format!("state `{name}` has no initial value"),
-                )
-                .help(format!(
-                    "give one in the experiment (`[initial] \"{name}\" = 0`, `--initial {name}=0`) or in the model (`<hint hintname=\"initial {name}\">0</hint>`)"
-                )),
-            ),
-        }
-    }
-    if errors.is_empty() { Ok(values) } else { Err(errors) }
 }
 
 /// `name` is not one of `known`.

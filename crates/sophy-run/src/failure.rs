@@ -5,6 +5,9 @@ use sophy_field::{Engine, Fault, LocationIndex, StateIndex, TransitionIndex, Wat
 use sophy_hybrid::HybridError;
 use sophy_ir::{Leaf, System};
 
+/// How many of the things that cannot be run are listed.
+const SHOWN: usize = 20;
+
 /// Why a run stopped before its end. What was recorded until then is complete.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
@@ -45,6 +48,24 @@ impl Failure {
             notes: self.notes.clone(),
             helps: self.helps.clone(),
         }
+    }
+
+    /// What a system needs and this version does not have, if there is any.
+    pub(crate) fn of_awaited(system: &System, time: f64) -> Option<Self> {
+        let first = system.awaits.first()?;
+        let others = &system.awaits[1..];
+        let mut notes: Vec<String> = others.iter().take(SHOWN).map(ToString::to_string).collect();
+        if others.len() > SHOWN {
+            notes.push(format!("and {} more", others.len() - SHOWN));
+        }
+        Some(Failure {
+            time,
+            message: format!("{first}: this version checks it but cannot run it"),
+            code: Code("SR0008"),
+            span: first.span,
+            notes,
+            helps: vec!["what can be run: continuous components with locations, transitions, event sections and modes, composed".to_owned()],
+        })
     }
 
     pub(crate) fn new(error: &HybridError, system: &System, engine: &dyn Engine) -> Self {

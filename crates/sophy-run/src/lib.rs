@@ -8,6 +8,7 @@ mod configure;
 mod experiment;
 mod failure;
 mod grid;
+mod initial;
 mod inputs;
 mod recorder;
 mod run;

@@ -345,6 +345,9 @@ fn available(system: &sophy_ir::System, states: u32) -> Vec<Available> {
         add(&u.name, &u.unit, Real::Source(SourceIndex(states + index as u32)), false, false);
     }
     for (index, automaton) in system.automata.iter().enumerate() {
+        if automaton.role != sophy_ir::Role::Component {
+            continue;
+        }
         let name = match automaton.name.as_str() {
             "" => "location".to_owned(),
             component => format!("{component}.location"),

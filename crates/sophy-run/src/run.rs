@@ -1,6 +1,7 @@
-use crate::configure::{configure, initial_states};
+use crate::configure::configure;
 use crate::experiment::{Experiment, ExperimentError};
 use crate::failure::Failure;
+use crate::initial::initial_states;
 use crate::inputs::Inputs;
 use sophy_codegen::{Compiled, compile};
 use sophy_field::{
@@ -68,14 +69,19 @@ impl Run {
     /// Configures a run and takes the micro-steps of its start.
     ///
     /// # Errors
-    /// All [`ExperimentError`]s at once, or the [`Failure`] of the start.
+    /// All [`ExperimentError`]s at once, or the [`Failure`] of the start; a system that awaits something this
+    /// version cannot run does not start.
     pub fn new(system: Arc<System>, experiment: &Experiment) -> Result<Self, StartError> {
+        if let Some(failure) = Failure::of_awaited(&system, experiment.start) {
+            return Err(StartError::Failure(Box::new(failure)));
+        }
         let configured = configure(&system, experiment)?;
         let compiled = compile(&system, &configured.knobs, configured.order)
             .map_err(|error| vec![ExperimentError::new("knobs", error.to_string())])?;
         let mut inputs = Inputs::new(configured.signals, configured.events);
         let lines = inputs.begin(experiment.start);
-        let states = initial_states(&system, experiment, &compiled.parameters, &lines)?;
+        let locations = &configured.locations;
+        let states = initial_states(&system, experiment, &compiled.parameters, &lines, locations)?;
         let equations = &compiled.equations;
         let settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
         let engine: Box<dyn Engine> = match configured.order {
@@ -105,10 +111,17 @@ impl Run {
         };
         let compiled = Arc::clone(&run.compiled);
         let started = run.engine.start(&compiled.equations, &start, &mut run.journal);
-        if let Err(fault) = started {
-            return Err(StartError::Failure(Box::new(run.failure(&fault.into()))));
-        }
-        match run.react(experiment.start) {
+        let begun = started.map_err(HybridError::from).and_then(|()| {
+            let engine = run.engine.as_mut();
+            run.control.begin(
+                engine,
+                &compiled.equations,
+                &compiled.logic,
+                experiment.start,
+                &mut run.journal,
+            )
+        });
+        match begun.and_then(|()| run.react(experiment.start)) {
             Ok(_) => Ok(run),
             Err(error) => Err(StartError::Failure(Box::new(run.failure(&error)))),
         }

@@ -48,6 +48,15 @@ pub const CODES: &[(Code, &str)] = &[
     (codes::UNEXPECTED, "something stands where it does not belong"),
     (codes::SPELLING, "an operator spelt as in another language"),
     (codes::STRING, "a string in an expression of numbers"),
+    (codes::MISSING_END, "an `end` is missing"),
+    (codes::WRONG_END, "an `end` that closes nothing, or something else"),
+    (codes::MISSING_SEMICOLON, "a `;` is missing"),
+    (codes::UNKNOWN_WORD, "a word that means nothing here, perhaps misspelt"),
+    (codes::MISSING_PART, "a part of a declaration, statement or section is missing"),
+    (codes::MISPLACED, "something that belongs to another section"),
+    (codes::EQUALITY, "`=`, `:=` and `:` mixed up"),
+    (codes::COMPARISON_IN_EQUATION, "a comparison in an equation without parentheses"),
+    (codes::LEFT_SIDE, "a left side that is no variable"),
 ];
 
 pub(crate) mod codes {
@@ -67,4 +76,13 @@ pub(crate) mod codes {
     pub(crate) const UNEXPECTED: Code = Code("HS0012");
     pub(crate) const SPELLING: Code = Code("HS0013");
     pub(crate) const STRING: Code = Code("HS0014");
+    pub(crate) const MISSING_END: Code = Code("HS0015");
+    pub(crate) const WRONG_END: Code = Code("HS0016");
+    pub(crate) const MISSING_SEMICOLON: Code = Code("HS0017");
+    pub(crate) const UNKNOWN_WORD: Code = Code("HS0018");
+    pub(crate) const MISSING_PART: Code = Code("HS0019");
+    pub(crate) const MISPLACED: Code = Code("HS0020");
+    pub(crate) const EQUALITY: Code = Code("HS0021");
+    pub(crate) const COMPARISON_IN_EQUATION: Code = Code("HS0022");
+    pub(crate) const LEFT_SIDE: Code = Code("HS0023");
 }

@@ -10,12 +10,21 @@ pub(crate) struct Token {
     pub(crate) range: Range<usize>,
 }
 
+/// What a text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// One expression: the words of [`SyntaxKind::of_word`] are plain names, and there are no strings.
+    Expression,
+    /// A file of components, functions and constants.
+    File,
+}
+
 /// The tokens of `text`, without a gap, and what is wrong with their spelling.
-pub(crate) fn lex(text: &str) -> (Vec<Token>, Vec<SyntaxError>) {
+pub(crate) fn lex(text: &str, mode: Mode) -> (Vec<Token>, Vec<SyntaxError>) {
     let mut tokens: Vec<Token> = Vec::new();
     let mut errors = Vec::new();
     for (result, range) in SyntaxKind::lexer(text).spanned() {
-        let kind = result.unwrap_or(SyntaxKind::Unknown);
+        let kind = in_mode(result.unwrap_or(SyntaxKind::Unknown), &text[range.clone()], mode);
         if kind == SyntaxKind::Unknown
             && let Some(last) = tokens.last_mut()
             && last.kind == SyntaxKind::Unknown
@@ -23,23 +32,81 @@ pub(crate) fn lex(text: &str) -> (Vec<Token>, Vec<SyntaxError>) {
             last.range.end = range.end; // a run of strange characters is one mistake
         } else {
             tokens.push(Token { kind, range });
+            if mode == Mode::File {
+                join_hyphenated(text, &mut tokens);
+            }
         }
     }
+    if mode == Mode::File {
+        words_in_place(&mut tokens);
+    }
     for token in &tokens {
-        errors.extend(misspelling(token.kind, &text[token.range.clone()], &token.range));
+        errors.extend(misspelling(token.kind, &text[token.range.clone()], &token.range, mode));
     }
     (tokens, errors)
 }
 
-fn misspelling(kind: SyntaxKind, slice: &str, range: &Range<usize>) -> Option<SyntaxError> {
+fn in_mode(kind: SyntaxKind, slice: &str, mode: Mode) -> SyntaxKind {
+    use SyntaxKind as K;
+    match (mode, kind) {
+        (Mode::File, K::Name) => SyntaxKind::of_word(slice).unwrap_or(kind),
+        (Mode::Expression, K::DocComment) => K::Comment,
+        (Mode::Expression, K::LeftBrace | K::RightBrace) => K::Unknown,
+        _ => kind,
+    }
+}
+
+/// `event` is also a type and `location` a variable: they are keywords where their sections start and end.
+fn words_in_place(tokens: &mut [Token]) {
+    use SyntaxKind as K;
+    let (mut before, mut after) = (K::End, K::End);
+    let mut undecided: Option<usize> = None;
+    for index in 0..=tokens.len() {
+        let kind = tokens.get(index).map_or(K::End, |token| token.kind);
+        if kind.is_trivia() {
+            continue;
+        }
+        if let Some(word) = undecided.take() {
+            let opens = match tokens[word].kind {
+                K::LocationKeyword => matches!(kind, K::Name | K::QuotedName),
+                _ => kind == K::LeftParenthesis,
+            };
+            if !opens && !matches!(before, K::EndKeyword | K::InitialKeyword | K::Semicolon) {
+                tokens[word].kind = K::Name;
+            }
+        }
+        if matches!(kind, K::LocationKeyword | K::EventKeyword | K::EventsKeyword) {
+            undecided = Some(index);
+            before = after;
+        }
+        after = kind;
+    }
+}
+
+/// Makes one keyword of `negative - to - positive` without spaces.
+fn join_hyphenated(text: &str, tokens: &mut Vec<Token>) {
+    let [.., first, minus, to, other, last] = tokens.as_slice() else { return };
+    let parts = [first, minus, to, other, last].map(|token| token.kind);
+    use SyntaxKind::{Minus, Name};
+    let range = first.range.start..last.range.end;
+    if parts == [Name, Minus, Name, Minus, Name]
+        && let Some(kind) = SyntaxKind::of_word(&text[range.clone()])
+    {
+        tokens.truncate(tokens.len() - 5);
+        tokens.push(Token { kind, range });
+    }
+}
+
+fn misspelling(kind: SyntaxKind, slice: &str, range: &Range<usize>, mode: Mode) -> Option<SyntaxError> {
     match kind {
+        SyntaxKind::String if mode == Mode::File => string(slice, range),
         SyntaxKind::Number => number(slice, range),
         SyntaxKind::QuotedName => quoted_name(slice, range),
         SyntaxKind::String => Some(
             SyntaxError::new(codes::STRING, range.clone(), "a string cannot be part of this expression")
                 .help("a name that is not an identifier stands in single quotes: `'Ground Impact'`"),
         ),
-        SyntaxKind::Unknown => Some(unknown(slice, range)),
+        SyntaxKind::Unknown => Some(unknown(slice, range, mode)),
         _ => operator(kind, slice, range),
     }
 }
@@ -93,7 +160,24 @@ fn quoted_name(slice: &str, range: &Range<usize>) -> Option<SyntaxError> {
     )
 }
 
-fn unknown(slice: &str, range: &Range<usize>) -> SyntaxError {
+fn string(slice: &str, range: &Range<usize>) -> Option<SyntaxError> {
+    let is_quote = |c: char| matches!(c, '"' | '“' | '”' | '„');
+    if slice.chars().count() < 2 || !slice.ends_with(is_quote) {
+        return Some(
+            SyntaxError::new(codes::QUOTE, range.clone(), "the string that starts here is never closed")
+                .help("a string ends with `\"` on the same line"),
+        );
+    }
+    if slice.starts_with('"') && slice.ends_with('"') {
+        return None;
+    }
+    Some(
+        SyntaxError::new(codes::CHARACTER, range.clone(), "typographic quotes do not make a string")
+            .help(format!("type `\"{}\"`", slice.trim_matches(is_quote))),
+    )
+}
+
+pub(crate) fn unknown(slice: &str, range: &Range<usize>, mode: Mode) -> SyntaxError {
     let error = |message: String| SyntaxError::new(codes::CHARACTER, range.clone(), message);
     let advice = match slice {
         "\u{a0}" | "\u{202f}" | "\u{2009}" => {
@@ -104,14 +188,15 @@ fn unknown(slice: &str, range: &Range<usize>) -> SyntaxError {
         "√" => "type `sqrt(…)`",
         "∞" => "there is no infinite number; leave the bound out",
         "′" => "a prime is no part of a name; write the derivative as an equation of its own",
-        "[" | "]" | "{" | "}" => "use `(` and `)`",
+        "{" | "}" => "use `(` and `)`",
         ";" => "an expression ends by itself; delete it",
         "#" => "a comment starts with `%`",
         _ => "delete it, or put a name that needs it in single quotes: `'Ground Impact'`",
     };
     let shown: String = slice.chars().take(12).collect();
     let kind = if shown.chars().count() == 1 { "is not a character" } else { "are not characters" };
-    error(format!("`{shown}` {kind} of an expression")).help(advice)
+    let whole = if mode == Mode::File { "a model" } else { "an expression" };
+    error(format!("`{shown}` {kind} of {whole}")).help(advice)
 }
 
 /// Operators that are understood, but are to be typed otherwise.

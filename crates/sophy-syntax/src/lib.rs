@@ -1,8 +1,14 @@
 //! Text → lossless tree, with every mistake of grammar; parsing never fails and knows no meaning.
 //!
-//! [`parse_expression`] reads the one expression language of Sophy and returns a [`Parse`]: a `rowan` tree
-//! that keeps every byte, and [`SyntaxError`]s whose ranges are bytes of the text. [`ast`] is the typed view of
-//! the tree; it tolerates whatever is missing. Precedence, from loose to tight:
+//! [`parse_file`] reads a file of HSML: components, functions, constants and imports. [`parse_expression`] reads
+//! one expression, as SOPHY XML has them. Both return a [`Parse`]: a `rowan` tree that keeps every byte, and
+//! [`SyntaxError`]s whose ranges are bytes of the text. [`ast`] is the typed view of the tree; it tolerates
+//! whatever is missing. [`format()`] lays out a file.
+//!
+//! A file has one message for each mistake: what follows from it in the same statement is not reported, and what
+//! comes after is read as it was meant. A section that lacks its `end` ends where another one starts.
+//!
+//! The one expression language, from loose to tight:
 //!
 //! | | |
 //! | --- | --- |
@@ -16,10 +22,13 @@
 //! | `-` `+` as a sign | `-x^2` is `-(x^2)` |
 //! | `^` | right to left; `2^-x` is `2^(-x)` |
 //!
-//! `%` starts a comment; `'Ground Impact'` quotes a name that is not an identifier.
+//! `%` starts a comment; `%%` one that documents the declaration after it; `'Ground Impact'` quotes a name that is
+//! not an identifier or is a reserved word.
 
 pub mod ast;
+mod brackets;
 mod error;
+mod format;
 mod grammar;
 mod kinds;
 mod lexer;
@@ -27,5 +36,6 @@ mod parse;
 mod parser;
 
 pub use error::{CODES, SyntaxError};
+pub use format::format;
 pub use kinds::{Sophy, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
-pub use parse::{Parse, parse_expression};
+pub use parse::{Parse, parse_expression, parse_file};

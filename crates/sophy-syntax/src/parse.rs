@@ -1,7 +1,8 @@
-use crate::ast::Expression;
+use crate::ast::{Expression, File, View};
 use crate::error::SyntaxError;
 use crate::grammar;
 use crate::kinds::SyntaxNode;
+use crate::lexer::Mode;
 use crate::parser::Parser;
 use rowan::GreenNode;
 
@@ -22,6 +23,11 @@ impl Parse {
         self.syntax().children().find_map(Expression::cast)
     }
 
+    /// The file, if one was read.
+    pub fn file(&self) -> Option<File> {
+        File::cast(self.syntax())
+    }
+
     /// The mistakes, in the order of their places; empty if the text is well formed.
     pub fn errors(&self) -> &[SyntaxError] {
         &self.errors
@@ -33,9 +39,17 @@ impl Parse {
     }
 }
 
+/// Reads a file of components, functions and constants. Never fails: whatever the text, there is a tree whose
+/// text it is.
+pub fn parse_file(text: &str) -> Parse {
+    let mut parser = Parser::new(text, Mode::File);
+    grammar::file::root(&mut parser);
+    parser.finish()
+}
+
 /// Reads one expression. Never fails: whatever the text, there is a tree whose text it is.
 pub fn parse_expression(text: &str) -> Parse {
-    let mut parser = Parser::new(text);
+    let mut parser = Parser::new(text, Mode::Expression);
     grammar::expressions::root(&mut parser);
     parser.finish()
 }

@@ -1,7 +1,7 @@
 //! The expression language: structure, mistakes and their messages, properties.
 
 use proptest::prelude::*;
-use sophy_syntax::ast::{ChainOperator, ComparisonOperator, Expression, LiteralValue, PrefixOperator};
+use sophy_syntax::ast::{ChainOperator, ComparisonOperator, Expression, LiteralValue, Part, PrefixOperator};
 use sophy_syntax::parse_expression;
 
 /// The structure as fully parenthesised prefix notation; `?` where something is missing.
@@ -61,7 +61,34 @@ fn structure(expression: Option<Expression>) -> String {
             structure(conditional.then_value()),
             structure(conditional.else_value())
         ),
+        Expression::StringLiteral(string) => format!("{:?}", string.value().unwrap_or_default()),
+        Expression::Vector(vector) => format!("[{}]", structures(vector.elements())),
+        Expression::Index(index) => format!("(at {}{})", structure(index.base()), selected(index.parts())),
+        Expression::Path(path) => format!("(path {}{})", structure(path.base()), selected(path.parts())),
+        Expression::Reduction(reduction) => {
+            let binders: String = reduction
+                .binders()
+                .into_iter()
+                .map(|b| format!(" ({} {} {})", b.name, structure(b.from), structure(b.to)))
+                .collect();
+            let condition = reduction.condition().map(|c| format!(" where {}", structure(Some(c))));
+            let name = reduction.name().unwrap_or_default();
+            format!("({name}{binders}{} : {})", condition.unwrap_or_default(), structure(reduction.body()))
+        }
     }
+}
+
+fn structures(expressions: Vec<Expression>) -> String {
+    let all: Vec<String> = expressions.into_iter().map(|e| structure(Some(e))).collect();
+    all.join(" ")
+}
+
+fn selected(parts: Vec<Part>) -> String {
+    let part = |part| match part {
+        Part::Member(name, _) => format!(" .{name}"),
+        Part::Indices(indices, _) => format!(" [{}]", structures(indices)),
+    };
+    parts.into_iter().map(part).collect()
 }
 
 fn check(text: &str, expected: &str) {
@@ -266,7 +293,7 @@ fn typographic_characters_say_what_to_type() {
     check_errors("a\u{a0}+ b", "(+ a b)", &["HS0001 \u{a0}: this is a no-break space | type a plain space"]);
     check_errors(
         "a + “b”",
-        "(+ a ?)",
+        "(+ a \"b\")",
         &[
             "HS0014 “b”: a string cannot be part of this expression | a name that is not an identifier stands \
            in single quotes: `'Ground Impact'`",
@@ -303,8 +330,73 @@ fn misspelt_operators() {
 }
 
 #[test]
+fn vectors_and_what_is_selected_of_them() {
+    check("[1, x + 2, -3]", "[1 (+ x 2) (neg 3)]");
+    check("[[1, 2], [3, 4]]", "[[1 2] [3 4]]");
+    check("2*x[i + 1]^2", "(* 2 (^ (at x [(+ i 1)]) 2))");
+    check("J[i, 3] - J[1][2]", "(- (at J [i 3]) (at J [1] [2]))");
+    check("(A*B)[1] + f(x)[2] + [1, 2][k]", "(+ (+ (at (* A B) [1]) (at f[x] [2])) (at [1 2] [k]))");
+    check("auv.drag.x[3] + 1", "(+ (path auv .drag .x [3]) 1)");
+    check("cell[2].out < 1", "(< (path cell [2] .out) 1)");
+}
+
+#[test]
+fn reductions() {
+    check("sum(i in 1..3 : x[i])", "(sum (i 1 3) : (at x [i]))");
+    check(
+        "min(j in 1..5 where j <> id : norm(p[j] - p[id])) < 2",
+        "(< (min (j 1 5) where (<> j id) : norm[(- (at p [j]) (at p [id]))]) 2)",
+    );
+    check("sum(i in 1..n, j in i + 1..m : a[i, j]*2)", "(sum (i 1 n) (j (+ i 1) m) : (* (at a [i j]) 2))");
+    check("all(i in 1..3 : x[i] > 0 and a)", "(all (i 1 3) : (and (> (at x [i]) 0) a))");
+    check("sum(x)", "sum[x]");
+}
+
+#[test]
+fn mistakes_in_brackets_and_reductions_cost_one_message() {
+    let write = "write a number, a name or an expression there";
+    check_errors("x[]", "(at x [])", &[&format!("HS0006 []: an expression is missing here | {write}")]);
+    check_errors("[1, , 2]", "[1 2]", &[&format!("HS0006 , ,: an expression is missing here | {write}")]);
+    check_errors(
+        "2 [1, 2]",
+        "(? 2 [1 2])",
+        &["HS0007 [: an operator is missing between `2` and `[` | for a product write `2 * [`"],
+    );
+    check_errors(
+        "x[1",
+        "(at x [1])",
+        &["HS0005 [: `[` is never closed | add a `]` where the part ends, or delete the `[`"],
+    );
+    check_errors("a. + 1", "(+ (path a) 1)", &[&format!("HS0006 .: `.` has nothing on its right | {write}")]);
+    check_errors(
+        "sum(i in 1 : x[i])",
+        "(sum (i 1 ?) : (at x [i]))",
+        &["HS0006 :: `..` is missing before `:` | a range has a first and a last value: `1..3`"],
+    );
+    check_errors(
+        "sum(i in 1..3, x[i]) + 1",
+        "(+ (sum (i 1 3) : ?) 1)",
+        &["HS0006 x: a loop variable is missing before `x` | write for example `j in 1..3` after the comma"],
+    );
+    check_errors(
+        "sum(i in 1..3 x[i])",
+        "(sum (i 1 (? 3 (at x [i]))) : ?)",
+        &["HS0007 x: an operator is missing between `3` and `x` | for a product write `3 * x`"],
+    );
+    check_errors(
+        "sum(i in 1..3)",
+        "(sum (i 1 3) : ?)",
+        &["HS0006 ): `:` is missing before `)` | write the range, a colon and what is to be combined: \
+           `sum(i in 1..3 : x[i])`"],
+    );
+}
+
+#[test]
 fn depth_is_bounded_and_length_is_not() {
     for deep in [
+        "[".repeat(100_000),
+        "x[".repeat(100_000),
+        "sum(i in 1..2 : ".repeat(100_000),
         format!("{}x{}", "(".repeat(100_000), ")".repeat(100_000)),
         "-".repeat(100_000),
         "2^".repeat(100_000),
@@ -319,6 +411,9 @@ fn depth_is_bounded_and_length_is_not() {
         assert!(parse.errors().len() <= 2, "{:?}", parse.errors());
     }
     let long = format!("x{}", " + x*y".repeat(20_000));
+    assert!(
+        parse_expression(&format!("x{}{}", ".y".repeat(20_000), "[1]".repeat(20_000))).errors().is_empty()
+    );
     assert!(parse_expression(&long).errors().is_empty());
     check(&format!("{}x{}", "(".repeat(100), ")".repeat(100)), "x");
 }

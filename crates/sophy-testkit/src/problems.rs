@@ -65,7 +65,7 @@ impl Hopper {
         b.when(thrust, "timer", expires, decompression, &[(eta2, force)]);
         b.when(thrust, "extended", extends, decompression, &[(eta2, force)]);
         b.when(decompression, "liftoff", extends, flight, &[]);
-        b.model
+        b.model()
     }
 }
 
@@ -81,7 +81,7 @@ pub fn oscillator() -> Model {
     let (spring, damper) = (b.mul(k, r1), b.mul(d, r2));
     let net = b.sub(spring, damper);
     b.rate(here, x2, net);
-    b.model
+    b.model()
 }
 
 /// x₁′ = −100 (x₁ + sin x₂), x₂′ = 1 from (1, 0) (thesis §3.3.3).
@@ -98,7 +98,7 @@ pub fn two_timescale() -> Model {
     b.rate(here, x1, net);
     let one = b.number(1.0);
     b.rate(here, x2, one);
-    b.model
+    b.model()
 }
 
 /// x₁ = (t − 1)² + offset, watched for `x₁ < 0`; then x₁′ = −1 (a thin dip if the offset is small).
@@ -115,7 +115,7 @@ pub fn dip(offset: f64) -> Model {
     b.rate(inside, x2, zero);
     let below = b.less(r1, zero);
     b.when(outside, "enter", below, inside, &[]);
-    b.model
+    b.model()
 }
 
 /// (x₁, x₂) = (cos(t − 1), sin(t − 1)), watched for the corner `x₁ > 0.99 && x₂ > corner`.
@@ -134,7 +134,7 @@ pub fn corner(corner: f64) -> Model {
     let (right, high) = (b.greater(r1, a), b.greater(r2, c));
     let both = b.graph().and(right, high);
     b.when(outside, "enter", both, inside, &[]);
-    b.model
+    b.model()
 }
 
 const COS_1: f64 = 0.540_302_305_868_139_8;
@@ -166,7 +166,7 @@ pub fn simultaneous() -> Model {
     b.when(bb, "b", a2, d, &[(x2, lower)]);
     b.when(c, "c", c1, a, &[(x1, zero), (x2, minus)]);
     b.when(d, "d", d1, a, &[]);
-    b.model
+    b.model()
 }
 
 /// Two timers (periods ½ and ¾ s) and a counter that receives both ticks: y + 1 and 2y, timer 1 first.
@@ -197,5 +197,5 @@ pub fn two_timers() -> Model {
     for (component, label) in timers {
         b.connect_event((component, label), (counter, label));
     }
-    b.model
+    b.model()
 }

@@ -3,7 +3,7 @@ use sophy_diagnostics::Code;
 /// Every code of this crate with the kind of mistake it names.
 ///
 /// `SX00` is about the file, `SX01` about XML as such, `SX02` about the document type definition, `SX03`
-/// about what the definition cannot say.
+/// about what the definition cannot say and hints do, `SX04` about what is to be written as SOPHY XML.
 pub const CODES: &[(Code, &str)] = &[
     (TOO_LARGE, "the file is larger than a model can be"),
     (NOT_UTF8, "the file is not UTF-8"),
@@ -45,6 +45,8 @@ pub const CODES: &[(Code, &str)] = &[
     (NEAR_HINT, "a hint is almost one that has a meaning"),
     (BAD_HINT, "a hint cannot be understood"),
     (SECOND_INITIAL_LOCATION, "the first location is named twice"),
+    (UNSAYABLE, "SOPHY XML has no words for a part of the model"),
+    (RESTATED, "SOPHY XML says a part of the model in other words"),
 ];
 
 pub(crate) const TOO_LARGE: Code = Code("SX0001");
@@ -90,6 +92,9 @@ pub(crate) const EMPTY_NAME: Code = Code("SX0301");
 pub(crate) const NEAR_HINT: Code = Code("SX0302");
 pub(crate) const BAD_HINT: Code = Code("SX0303");
 pub(crate) const SECOND_INITIAL_LOCATION: Code = Code("SX0304");
+
+pub(crate) const UNSAYABLE: Code = Code("SX0401");
+pub(crate) const RESTATED: Code = Code("SX0402");
 
 #[cfg(test)]
 mod tests {

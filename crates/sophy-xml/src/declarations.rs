@@ -5,11 +5,11 @@ use crate::parser::is_xml_character;
 use crate::schema::ROOT;
 use crate::syntax_errors::syntax_errors;
 use sophy_analysis::{
-    ConstantDeclaration, Declarations, EquationDeclaration, ExpressionText, LocationDeclaration, Spanned,
-    TransitionDeclaration, VariableDeclaration,
+    ComponentDeclaration, ComponentKind, Declarations, Dialect, Direction, EquationDeclaration, EquationItem,
+    Equations, ExpressionText, LocationDeclaration, ParameterDeclaration, PortDeclaration, Spanned,
+    Statement, Target, TransitionDeclaration, TriggerDeclaration, VariableDeclaration, VariableRole,
 };
-use sophy_diagnostics::{Diagnostic, Diagnostics};
-use sophy_syntax::parse_expression;
+use sophy_diagnostics::{Diagnostic, Diagnostics, TextMap};
 
 /// What a tree declares whose elements the content check has named; `None` if it is no system.
 pub(crate) fn declare(root: &Element, diagnostics: &mut Diagnostics) -> Option<Declarations> {
@@ -17,22 +17,16 @@ pub(crate) fn declare(root: &Element, diagnostics: &mut Diagnostics) -> Option<D
         return None;
     }
     let mut reader = Reader { diagnostics };
-    let mut declarations = Declarations {
-        name: reader.name_of(root),
-        documentation: documentation_of(root),
-        constants: members(root, "constants", "constant").map(|e| reader.constant(e)).collect(),
-        functions: Vec::new(),
-        states: members(root, "states", "state").map(|e| reader.variable(e)).collect(),
-        inputs: members(root, "inputs", "input").map(|e| reader.variable(e)).collect(),
-        outputs: members(root, "outputs", "output").map(|e| reader.variable(e)).collect(),
-        initial: Vec::new(),
-        initial_location: None,
-        units: Vec::new(),
-        hints: Vec::new(),
-        locations: members(root, "locations", "location").map(|e| reader.location(e)).collect(),
-    };
-    hints::declare(members(root, "hints", "hint"), &mut declarations, &mut reader);
-    Some(declarations)
+    let mut component = ComponentDeclaration::new(ComponentKind::Ctc, reader.name_of(root), Dialect::Xml);
+    component.documentation = documentation_of(root);
+    component.parameters = members(root, "constants", "constant").map(|e| reader.constant(e)).collect();
+    component.variables = members(root, "states", "state").map(|e| reader.state(e)).collect();
+    let inputs = members(root, "inputs", "input").map(|e| (Direction::Input, e));
+    let outputs = members(root, "outputs", "output").map(|e| (Direction::Output, e));
+    component.ports = inputs.chain(outputs).map(|(direction, e)| reader.port(direction, e)).collect();
+    component.locations = members(root, "locations", "location").map(|e| reader.location(e)).collect();
+    let functions = hints::declare(members(root, "hints", "hint"), &mut component, &mut reader);
+    Some(Declarations { functions, components: vec![component], ..Declarations::default() })
 }
 
 /// The `member`s of every `group` (there should be one), and those that stand outside it by mistake.
@@ -46,18 +40,35 @@ pub(crate) struct Reader<'d> {
 }
 
 impl Reader<'_> {
-    fn constant(&mut self, element: &Element) -> ConstantDeclaration {
-        ConstantDeclaration {
+    fn constant(&mut self, element: &Element) -> ParameterDeclaration {
+        ParameterDeclaration {
             name: self.attribute_name(element, "symbol"),
+            documentation: String::new(),
             value: self.expression(&element.text()),
+            unit: None,
         }
     }
 
-    fn variable(&mut self, element: &Element) -> VariableDeclaration {
-        let documentation = element.attribute("documentation").map(|text| text.decoded.trim().to_owned());
+    fn state(&mut self, element: &Element) -> VariableDeclaration {
         VariableDeclaration {
+            role: VariableRole::State,
             name: self.name(&element.text(), element),
-            documentation: documentation.unwrap_or_default(),
+            documentation: attribute_documentation(element),
+            kind: None,
+            range: None,
+            initial: None,
+            unit: None,
+        }
+    }
+
+    fn port(&mut self, direction: Direction, element: &Element) -> PortDeclaration {
+        PortDeclaration {
+            name: self.name(&element.text(), element),
+            documentation: attribute_documentation(element),
+            direction,
+            kind: None,
+            range: None,
+            unit: None,
         }
     }
 
@@ -65,44 +76,66 @@ impl Reader<'_> {
         LocationDeclaration {
             name: self.name_of(element),
             documentation: documentation_of(element),
-            dynamics: element.all("diffequation").map(|e| self.equation(e, "state")).collect(),
-            outputs: element.all("outputmap").map(|e| self.equation(e, "output")).collect(),
+            variables: Vec::new(),
+            equations: Equations {
+                dynamics: element.all("diffequation").map(|e| self.equation(e, "state", true)).collect(),
+                constraints: Vec::new(),
+                output: element.all("outputmap").map(|e| self.equation(e, "output", false)).collect(),
+            },
+            invariant: None,
             transitions: members(element, "transitions", "transition").map(|e| self.transition(e)).collect(),
         }
     }
 
     fn transition(&mut self, element: &Element) -> TransitionDeclaration {
         let destination = element.all("reset").find_map(|reset| reset.first("destination"));
+        let guard = element.first("domain").map(|domain| self.expression(&domain.text()));
+        let events: Vec<_> = element.all("inputevent").map(|e| self.name(&e.text(), e)).collect();
+        let mut actions: Vec<_> = members(element, "reset", "statereset").map(|e| self.reset(e)).collect();
+        actions.extend(element.all("outputevent").map(|e| Statement::Emit(self.name(&e.text(), e))));
         TransitionDeclaration {
             name: self.name_of(element),
             documentation: documentation_of(element),
-            guard: element.first("domain").map(|domain| self.expression(&domain.text())),
+            trigger: match events.as_slice() {
+                [] => TriggerDeclaration::When(guard),
+                _ => TriggerDeclaration::WhenOrOn(guard, events),
+            },
+            priority: None,
             destination: match destination {
                 Some(destination) => self.name(&destination.text(), destination),
                 None => missing_name(element),
             },
-            resets: members(element, "reset", "statereset").map(|e| self.equation(e, "state")).collect(),
-            input_events: element.all("inputevent").map(|e| self.name(&e.text(), e)).collect(),
-            output_events: element.all("outputevent").map(|e| self.name(&e.text(), e)).collect(),
+            actions,
         }
     }
 
-    fn equation(&mut self, element: &Element, attribute: &str) -> EquationDeclaration {
-        EquationDeclaration {
-            target: self.attribute_name(element, attribute),
+    fn equation(&mut self, element: &Element, attribute: &str, derivative: bool) -> EquationItem {
+        EquationItem::Equation(EquationDeclaration {
+            derivative,
+            target: whole(self.attribute_name(element, attribute)),
             right: self.expression(&element.text()),
-        }
+        })
+    }
+
+    fn reset(&mut self, element: &Element) -> Statement {
+        let target = whole(self.attribute_name(element, "state"));
+        Statement::Assign { target, right: self.expression(&element.text()) }
     }
 
     /// The expression that a text is, without the blanks around it. Its syntax errors are reported, unless they
     /// may be due to a mistake of XML in it.
     pub(crate) fn expression(&mut self, text: &Text) -> ExpressionText {
         let (trimmed, map) = text.trimmed();
-        let parse = parse_expression(trimmed);
-        if !text.damaged && trimmed.chars().all(is_xml_character) {
-            self.diagnostics.extend(syntax_errors(&parse, &map));
+        self.expression_at(trimmed, map, text.damaged)
+    }
+
+    /// The expression that `text` is, a part of what stands in the file, which may be `damaged`.
+    pub(crate) fn expression_at(&mut self, text: &str, map: TextMap, damaged: bool) -> ExpressionText {
+        let (expression, parse) = ExpressionText::parse(text, map);
+        if !damaged && text.chars().all(is_xml_character) {
+            self.diagnostics.extend(syntax_errors(&parse, &expression.map));
         }
-        ExpressionText { text: trimmed.to_owned(), parse, map }
+        expression
     }
 
     /// The text of the child `name`; empty if there is none, which the content check has said.
@@ -142,6 +175,15 @@ impl Reader<'_> {
 /// Stands for a name whose absence the content check has reported.
 fn missing_name(element: &Element) -> Spanned<String> {
     Spanned::new(String::new(), element.tag)
+}
+
+/// The target that a name is, rather than an element of it.
+pub(crate) fn whole(name: Spanned<String>) -> Target {
+    Target { name, indices: Vec::new() }
+}
+
+fn attribute_documentation(element: &Element) -> String {
+    element.attribute("documentation").map_or_else(String::new, |text| text.decoded.trim().to_owned())
 }
 
 fn documentation_of(element: &Element) -> String {

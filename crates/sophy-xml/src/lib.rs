@@ -11,7 +11,8 @@
 //!    is wrong with them; `hints` finds what the definition lacks (initial state, units, functions);
 //! 5. `judge`: a file without a mistake so far must also satisfy a strict parser.
 //!
-//! [`write()`] is the way back. Nothing is fetched: no external entity, no external definition. Size, depth,
+//! [`write()`] is the way back: `restate` puts a component into the words of SOPHY XML, or says why it cannot, and
+//! what it made is written down. Nothing is fetched: no external entity, no external definition. Size, depth,
 //! number of nodes and the expansion of entities are bounded (`limits`). Every message has a code of
 //! [`CODES`].
 
@@ -29,6 +30,7 @@ mod nesting;
 mod parser;
 mod read;
 mod reference;
+mod restate;
 mod schema;
 mod syntax_errors;
 mod tag;
@@ -37,4 +39,4 @@ mod write;
 pub use codes::CODES;
 pub use read::{DTD, Reading, read};
 pub use syntax_errors::syntax_errors;
-pub use write::write;
+pub use write::{Writing, write};

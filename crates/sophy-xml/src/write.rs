@@ -1,98 +1,92 @@
+use crate::restate::{self, Location, System, Transition};
 use quick_xml::Writer;
 use quick_xml::escape::minimal_escape;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
-use sophy_analysis::{
-    Declarations, EquationDeclaration, FunctionDeclaration, LocationDeclaration, Spanned,
-    TransitionDeclaration, VariableDeclaration,
-};
+use sophy_analysis::{ComponentDeclaration, FunctionDeclaration, ParameterDeclaration};
+use sophy_diagnostics::{Diagnostics, Severity};
 use std::io;
 
-/// SOPHY XML that declares `declarations`, valid by [`DTD`](crate::DTD).
-///
-/// Expressions and documentation stay as they are, references are put where XML needs them, hints come in
-/// the order initial state, units, functions, others. What [`read`](crate::read) makes of the text equals
-/// `declarations` but for places, if names and expressions have no blanks around them. A character that XML
-/// does not have becomes U+FFFD. A system without locations is written, but the definition wants at least one.
-pub fn write(declarations: &Declarations) -> String {
-    // Writing into memory does not fail.
-    document(declarations).unwrap_or_default()
+/// What [`write()`] made of a component.
+#[derive(Clone, Debug)]
+pub struct Writing {
+    /// The SOPHY XML, valid by [`DTD`](crate::DTD); `None` if there are errors among the diagnostics.
+    pub text: Option<String>,
+    /// Everything that SOPHY XML cannot say, as errors; without them, notes on what it says in other words.
+    pub diagnostics: Diagnostics,
 }
 
-fn document(declarations: &Declarations) -> io::Result<String> {
+/// SOPHY XML that declares `component`, with the functions and constants of its file.
+///
+/// Expressions and documentation stay as they are, references are put where XML needs them, hints come in
+/// the order initial state, units, functions, others. What [`read`](crate::read) makes of the text of a component
+/// that was SOPHY XML equals it but for places, if names and expressions have no blanks around them. Of an HSML
+/// component
+///
+/// - equations that hold everywhere stand in every location, a local in the place of its name,
+/// - a real mode is a state that does not change by itself,
+/// - two transitions of one name, one with `when` and one with `on`, are one.
+///
+/// A character that XML does not have becomes U+FFFD. A system without locations is written, but the definition
+/// wants at least one.
+pub fn write(
+    component: &ComponentDeclaration,
+    functions: &[FunctionDeclaration],
+    constants: &[ParameterDeclaration],
+) -> Writing {
+    let (system, diagnostics) = restate::restate(component, functions, constants);
+    if diagnostics.has_errors() {
+        // How something would be said is of no interest then.
+        let mut errors = Diagnostics::default();
+        diagnostics.iter().filter(|d| d.severity == Severity::Error).for_each(|d| errors.push(d.clone()));
+        return Writing { text: None, diagnostics: errors };
+    }
+    // Writing into memory does not fail.
+    Writing { text: document(&system).ok(), diagnostics }
+}
+
+fn document(system: &System<'_>) -> io::Result<String> {
     let mut out = Output { writer: Writer::new_with_indent(Vec::new(), b' ', 2), depth: 0 };
     out.event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     out.event(Event::DocType(BytesText::from_escaped("SophySystem SYSTEM \"SophySystem.dtd\"")))?;
-    out.group("SophySystem", |out| system(declarations, out))?;
+    out.group("SophySystem", |out| content(system, out))?;
     let mut text = String::from_utf8_lossy(&out.writer.into_inner()).into_owned();
     text.push('\n');
     Ok(text)
 }
 
-fn system(d: &Declarations, out: &mut Output) -> io::Result<()> {
-    out.text("name", &d.name.value)?;
-    out.documentation(&d.documentation)?;
-    if d.initial_location.is_some()
-        || !(d.initial.is_empty() && d.units.is_empty() && d.functions.is_empty() && d.hints.is_empty())
-    {
-        out.group("hints", |out| hints(d, out))?;
+fn content(system: &System<'_>, out: &mut Output) -> io::Result<()> {
+    out.text("name", system.name)?;
+    out.documentation(system.documentation)?;
+    if !system.hints.is_empty() {
+        out.group("hints", |out| pairs("hint", "hintname", &system.hints, out))?;
     }
-    if !d.constants.is_empty() {
-        out.group("constants", |out| {
-            let mut each = d.constants.iter();
-            each.try_for_each(|c| out.text_with("constant", ("symbol", &c.name.value), &c.value.text))
-        })?;
+    if !system.constants.is_empty() {
+        out.group("constants", |out| pairs("constant", "symbol", &system.constants, out))?;
     }
-    variables(("states", "state"), &d.states, out)?;
-    variables(("inputs", "input"), &d.inputs, out)?;
-    variables(("outputs", "output"), &d.outputs, out)?;
-    out.group("locations", |out| d.locations.iter().try_for_each(|l| location(l, out)))
+    variables(("states", "state"), &system.states, out)?;
+    variables(("inputs", "input"), &system.inputs, out)?;
+    variables(("outputs", "output"), &system.outputs, out)?;
+    out.group("locations", |out| system.locations.iter().try_for_each(|l| location(l, out)))
 }
 
-fn hints(d: &Declarations, out: &mut Output) -> io::Result<()> {
-    let mut hint = |name: &str, text: &str| out.text_with("hint", ("hintname", name), text);
-    if let Some(location) = &d.initial_location {
-        hint("initial location", &location.value)?;
-    }
-    for initial in &d.initial {
-        hint(&format!("initial {}", initial.target.value), &initial.right.text)?;
-    }
-    for (name, unit) in &d.units {
-        hint(&format!("unit {}", name.value), &unit.value)?;
-    }
-    for function in &d.functions {
-        hint(&head(function), &function.body.text)?;
-    }
-    d.hints.iter().try_for_each(|(name, text)| hint(&name.value, &text.value))
-}
-
-/// `function f(a, b)`
-fn head(function: &FunctionDeclaration) -> String {
-    let parameters: Vec<&str> = function.parameters.iter().map(|p| p.value.as_str()).collect();
-    format!("function {}({})", function.name.value, parameters.join(", "))
-}
-
-fn variables(
-    (group, member): (&str, &str),
-    variables: &[VariableDeclaration],
-    out: &mut Output,
-) -> io::Result<()> {
+fn variables((group, member): (&str, &str), variables: &[(&str, &str)], out: &mut Output) -> io::Result<()> {
     if variables.is_empty() {
         return out.text(group, "");
     }
     out.group(group, |out| {
-        variables.iter().try_for_each(|variable| match variable.documentation.as_str() {
-            "" => out.text(member, &variable.name.value),
-            text => out.text_with(member, ("documentation", text), &variable.name.value),
+        variables.iter().try_for_each(|(name, documentation)| match *documentation {
+            "" => out.text(member, name),
+            text => out.text_with(member, ("documentation", text), name),
         })
     })
 }
 
-fn location(location: &LocationDeclaration, out: &mut Output) -> io::Result<()> {
+fn location(location: &Location<'_>, out: &mut Output) -> io::Result<()> {
     out.group("location", |out| {
-        out.text("name", &location.name.value)?;
-        out.documentation(&location.documentation)?;
-        equations("diffequation", "state", &location.dynamics, out)?;
-        equations("outputmap", "output", &location.outputs, out)?;
+        out.text("name", &location.name)?;
+        out.documentation(location.documentation)?;
+        pairs("diffequation", "state", &location.dynamics, out)?;
+        pairs("outputmap", "output", &location.output, out)?;
         if location.transitions.is_empty() {
             return Ok(());
         }
@@ -100,31 +94,32 @@ fn location(location: &LocationDeclaration, out: &mut Output) -> io::Result<()> 
     })
 }
 
-fn equations(
-    element: &str,
-    attribute: &str,
-    equations: &[EquationDeclaration],
-    out: &mut Output,
-) -> io::Result<()> {
-    equations.iter().try_for_each(|e| out.text_with(element, (attribute, &e.target.value), &e.right.text))
-}
-
-fn transition(transition: &TransitionDeclaration, out: &mut Output) -> io::Result<()> {
+fn transition(transition: &Transition<'_>, out: &mut Output) -> io::Result<()> {
     out.group("transition", |out| {
-        out.text("name", &transition.name.value)?;
+        out.text("name", transition.name)?;
         out.documentation(&transition.documentation)?;
-        out.text("domain", transition.guard.as_ref().map_or("", |guard| &guard.text))?;
+        out.text("domain", &transition.domain)?;
         out.group("reset", |out| {
-            out.text("destination", &transition.destination.value)?;
-            equations("statereset", "state", &transition.resets, out)
+            out.text("destination", transition.destination)?;
+            pairs("statereset", "state", &transition.resets, out)
         })?;
         events("inputevent", &transition.input_events, out)?;
         events("outputevent", &transition.output_events, out)
     })
 }
 
-fn events(element: &str, labels: &[Spanned<String>], out: &mut Output) -> io::Result<()> {
-    labels.iter().try_for_each(|label| out.text(element, &label.value))
+/// `<element attribute="first">second</element>` for each pair.
+fn pairs<A: AsRef<str>, B: AsRef<str>>(
+    element: &str,
+    attribute: &str,
+    pairs: &[(A, B)],
+    out: &mut Output,
+) -> io::Result<()> {
+    pairs.iter().try_for_each(|(key, text)| out.text_with(element, (attribute, key.as_ref()), text.as_ref()))
+}
+
+fn events(element: &str, labels: &[&str], out: &mut Output) -> io::Result<()> {
+    labels.iter().try_for_each(|label| out.text(element, label))
 }
 
 /// The text so far, and how deep it is nested.

@@ -1,6 +1,7 @@
 //! Text and attributes are decoded as roxmltree does, and every byte knows its place.
 
 use proptest::prelude::*;
+use sophy_analysis::TriggerDeclaration;
 use sophy_diagnostics::Sources;
 use sophy_xml::read;
 
@@ -33,9 +34,9 @@ fn pieces(in_text: bool) -> impl Strategy<Value = String> {
 fn a_lone_carriage_return_is_a_line_end() {
     let file = document("a\rb", "a\r&lt;\r\n\rb");
     let reading = read(&mut Sources::default(), "m.xml", file.as_bytes());
-    let ours = reading.declarations.expect("a system");
+    let ours = &reading.declarations.expect("a system").components[0];
     assert_eq!(ours.hints[0].1.value, "a\n<\n\nb");
-    assert_eq!(ours.states[0].documentation, "a b");
+    assert_eq!(ours.variables[0].documentation, "a b");
 }
 
 proptest! {
@@ -52,14 +53,16 @@ proptest! {
         };
         let mut sources = Sources::default();
         let reading = read(&mut sources, "m.xml", file.as_bytes());
-        let ours = reading.declarations.expect("a system");
+        let ours = &reading.declarations.expect("a system").components[0];
         let (hint, domain) = (text_of("hint"), text_of("domain"));
         prop_assert_eq!(&ours.hints[0].1.value, hint.trim());
         let documentation = find("state").attribute("documentation").expect("it is there");
-        prop_assert_eq!(&ours.states[0].documentation, documentation.trim());
+        prop_assert_eq!(&ours.variables[0].documentation, documentation.trim());
 
-        let guard = ours.locations[0].transitions[0].guard.as_ref().expect("a domain");
-        prop_assert_eq!(&guard.text, domain.trim());
+        let TriggerDeclaration::When(Some(guard)) = &ours.locations[0].transitions[0].trigger else {
+            panic!("a domain")
+        };
+        prop_assert_eq!(&*guard.text, domain.trim());
         for (at, c) in guard.text.char_indices() {
             let place = sources.excerpt(guard.map.span(at..at + c.len_utf8()));
             let as_is = place == c.encode_utf8(&mut [0; 4]);

@@ -1,5 +1,6 @@
 //! The two printed listings with all their mistakes of this layer, and the corrected models without any.
 
+use sophy_analysis::{Statement, TriggerDeclaration};
 use sophy_diagnostics::{Sources, Style, render};
 use sophy_xml::read;
 
@@ -30,7 +31,8 @@ fn the_corrected_hopper() {
     let text = include_str!("../../../examples/hopper/hopper.xml");
     assert_eq!(messages("hopper.xml", text), "");
     let mut sources = Sources::default();
-    let hopper = read(&mut sources, "hopper.xml", text.as_bytes()).declarations.expect("a system");
+    let declarations = read(&mut sources, "hopper.xml", text.as_bytes()).declarations.expect("a system");
+    let [hopper] = declarations.components.as_slice() else { panic!("one component") };
     assert_eq!(hopper.name.value, "RaibertsHopper");
     assert!(
         hopper
@@ -38,20 +40,23 @@ fn the_corrected_hopper() {
             .starts_with("This file implements a model of the one legged robot called\n\"Raibert's")
     );
     let constants: Vec<_> =
-        hopper.constants.iter().map(|c| format!("{}={}", c.name.value, c.value.text)).collect();
+        hopper.parameters.iter().map(|c| format!("{}={}", c.name.value, c.value.text)).collect();
     assert_eq!(constants.join(" "), "G=9.82 Tp=0.1 L=0.5 GAMMA=0.2 TAU=40 ETA=8");
-    let initial: Vec<_> =
-        hopper.initial.iter().map(|e| format!("{}={}", e.target.value, e.right.text)).collect();
+    let initial = hopper.initial.iter().map(|statement| match statement {
+        Statement::Assign { target, right } => format!("{}={}", target.name.value, right.text),
+        other => panic!("{other:?}"),
+    });
+    let initial: Vec<_> = initial.collect();
     assert_eq!(initial.join(" "), "Position=1.9 Speed=0.1 Time=0 ETA2=0");
-    assert_eq!(hopper.initial_location.map(|l| l.value).as_deref(), Some("Flight"));
+    assert_eq!(hopper.initial_location.as_ref().map(|l| l.value.as_str()), Some("Flight"));
     let units: Vec<_> = hopper.units.iter().map(|(n, u)| format!("{}:{}", n.value, u.value)).collect();
     assert_eq!(units.join(" "), "Position:m Speed:m/s Time:s ETA2:m2/s2");
-    assert_eq!(hopper.states[2].documentation, "Only used in the thrust location");
+    assert_eq!(hopper.variables[2].documentation, "Only used in the thrust location");
     for location in &hopper.locations {
         let [transition] = location.transitions.as_slice() else { panic!("one transition each") };
-        assert_eq!(location.dynamics.len(), 4, "{}", location.name.value);
-        assert_eq!(location.outputs.len(), 2, "{}", location.name.value);
-        let guard = transition.guard.as_ref().expect("a domain");
+        assert_eq!(location.equations.dynamics.len(), 4, "{}", location.name.value);
+        assert_eq!(location.equations.output.len(), 2, "{}", location.name.value);
+        let TriggerDeclaration::When(Some(guard)) = &transition.trigger else { panic!("a domain") };
         let span = guard.map.whole();
         let arrow = format!("{} --{}--> {}", location.name.value, guard.text, transition.destination.value);
         let expected = match location.name.value.as_str() {
@@ -62,7 +67,7 @@ fn the_corrected_hopper() {
         };
         assert_eq!(arrow, expected);
         let decoded = sources.excerpt(span).replace("&lt;", "<").replace("&gt;", ">");
-        assert_eq!(decoded, guard.text);
+        assert_eq!(decoded, *guard.text);
     }
 }
 

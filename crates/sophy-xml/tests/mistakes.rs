@@ -1,7 +1,7 @@
 //! Every kind of mistake: where it is, what it is called, and that nothing else is said.
 
 use sophy_diagnostics::{Sources, Style, render};
-use sophy_xml::{CODES, read};
+use sophy_xml::{CODES, read, write};
 use std::collections::BTreeSet;
 
 /// `line:column code message` of each diagnostic, in the order of places.
@@ -186,6 +186,13 @@ fn every_code_is_used() {
     note(b"");
     note("<a>".repeat(1000).as_bytes());
     note(system(&[("<inputs/>", &"<a/>".repeat(1 << 20))]).as_bytes());
+    for body in ["declarations flag S; end declarations;", "dynamics der(x) = 1; end dynamics;"] {
+        let text = format!("CTC C is body {body} end body;");
+        let declarations =
+            sophy_analysis::read_hsml(&mut Sources::default(), "m.hsml", text.as_bytes()).declarations;
+        let writing = write(&declarations.components[0], &[], &[]);
+        used.extend(writing.diagnostics.iter().map(|d| d.code));
+    }
     let unused: Vec<_> = CODES.iter().filter(|(code, _)| !used.contains(code)).collect();
     assert!(unused.is_empty(), "{unused:?}");
 }

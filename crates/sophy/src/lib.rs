@@ -71,37 +71,47 @@
 //! [`load_experiment`] reads an experiment (`.toml`) with its model, [`run`] writes the results, the log of
 //! transitions and the pictures it asks for and lets an [`Observer`] look on; [`explain`] turns what went wrong
 //! into messages at the places they are about. [`check`] finds mistakes without running, [`describe`] says what
-//! a model consists of. The command `sophy` does nothing else.
+//! a model consists of. [`format()`] lays out HSML, [`to_hsml`] and [`to_xml`] say a model in the other language,
+//! [`page`] explains the code of a message. The command `sophy` does nothing else.
 
+mod convert;
 mod describe;
+mod digest;
+mod draw;
 mod emit;
 mod error;
+mod format;
 mod load;
 mod metadata;
+mod pages;
 mod run;
 mod setup;
 mod simulate;
 mod world;
 
+pub use convert::{Conversion, to_hsml, to_xml};
 pub use describe::{
-    AutomatonDescription, Dependency, Description, LocationDescription, Quantity, TransitionDescription,
-    WatchDescription, describe,
+    AutomatonDescription, ClockDescription, ComponentDescription, Dependency, Description, Knot,
+    LocationDescription, Quantity, Reaction, Sizes, Sparsity, TransitionDescription, WatchDescription, describe,
 };
+pub use draw::{UnknownComponent, diagram};
 pub use emit::{declarations_text, model_text, system_text};
 pub use error::Error;
-pub use load::{Loaded, Provenance, load, load_experiment, load_model};
+pub use format::{Formatted, format};
+pub use load::{Loaded, Provenance, load, load_as, load_experiment, load_model};
+pub use pages::{Page, page, pages};
 pub use run::{Finished, check, explain, run};
 pub use setup::{Outputs, Setup, SignalError, read_signal};
 pub use simulate::{Simulation, simulate};
 pub use world::FileWorld;
 
-pub use sophy_analysis::Declarations;
+pub use sophy_analysis::{Declarations, Root};
 pub use sophy_diagnostics::{
     Code, Diagnostic, Diagnostics, Label, MemoryWorld, Severity, SourceId, Sources, Span, Style, World,
     WorldError, closest, render,
 };
 pub use sophy_files::{
-    FileError, PlotOptions, plot, read_columns, read_event_labels, read_events, read_table, write_table,
+    Diagram, FileError, PlotOptions, draw, plot, read_columns, read_event_labels, read_events, read_table, write_table,
 };
 pub use sophy_ir::Model;
 pub use sophy_record::{
@@ -111,4 +121,3 @@ pub use sophy_run::{
     AtEnd, Experiment, ExperimentError, Failure, Interpolation, Method, Observer, Outcome, Progress, Quantum,
     QuantumRule, Report, Signal,
 };
-pub use sophy_xml::{read as read_xml, write as write_xml};

@@ -1,7 +1,7 @@
+use crate::digest::Digesting;
 use crate::setup::{Setup, read_setup};
-use sha2::{Digest, Sha256};
-use sophy_analysis::{Declarations, analyse};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Severity, Sources, World};
+use sophy_analysis::{Declarations, Root, analyse, read_with_imports};
+use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Severity, SourceId, Sources, World};
 use sophy_ir::Model;
 use std::path::{Path, PathBuf};
 
@@ -10,11 +10,13 @@ use std::path::{Path, PathBuf};
 /// With errors among the diagnostics, `model` is `None` or the setup is incomplete; nothing should be run then.
 #[derive(Clone, Debug, Default)]
 pub struct Loaded {
-    /// Every text that was read; messages point into them.
+    /// Every text that was read; messages and declarations point into them.
     pub sources: Sources,
+    /// The model's own file among the sources; the others are the experiment and what the model imports.
+    pub source: Option<SourceId>,
     /// The model, if it has no errors.
     pub model: Option<Model>,
-    /// What the model's file declares, as far as it could be read.
+    /// What the model's file and its imports declare, as far as they could be read.
     pub declarations: Option<Declarations>,
     /// The experiment, the defaults if only a model was loaded.
     pub setup: Setup,
@@ -38,7 +40,8 @@ impl Loaded {
 pub struct Provenance {
     /// Path of the model's file.
     pub model_file: PathBuf,
-    /// SHA-256 of that file's bytes, as hexadecimal digits.
+    /// SHA-256 of the model, as hexadecimal digits: of the bytes of its file, followed by those of the files it
+    /// imports and of the tables and data it reads, in the order in which they are read.
     pub model_hash: String,
     /// Text of the experiment file; empty if there is none.
     pub experiment: String,
@@ -47,29 +50,38 @@ pub struct Provenance {
 /// What a file is, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    Model,
+    Hsml,
+    Xml,
     Experiment,
 }
 
+/// The models that are understood, in words.
+const MODELS: &str = "HSML (.hsml) and SOPHY XML (.xml)";
+
 /// Loads whatever `path` is: a model, or an experiment together with its model.
 pub fn load(world: &dyn World, path: &Path) -> Loaded {
-    match kind(path) {
-        Some(Kind::Experiment) => load_experiment(world, path),
-        Some(Kind::Model) => load_model(world, path),
-        None => {
-            let mut loaded = Loaded::default();
-            loaded.diagnostics.push(unknown_kind(path, "SOPHY XML models (.xml) and experiments (.toml)"));
-            loaded
-        }
-    }
+    load_as(world, path, Root::Implied)
 }
 
-/// Reads and checks a model. Every mistake of the file is in the diagnostics.
-///
-/// SOPHY XML (`.xml`) is understood.
+/// The same with the component to run said. A name wins over the one that an experiment says.
+pub fn load_as(world: &dyn World, path: &Path, root: Root<'_>) -> Loaded {
+    let mut loaded = Loaded::default();
+    match kind(path) {
+        Some(Kind::Experiment) => read_experiment(world, path, root, &mut loaded),
+        Some(_) => read_model(world, path, root, &mut loaded),
+        None => {
+            let known = format!("models in {MODELS} and experiments (.toml)");
+            loaded.diagnostics.push(unknown_kind(path, &known));
+        }
+    }
+    loaded
+}
+
+/// Reads and checks a model in HSML (`.hsml`) or SOPHY XML (`.xml`). Every mistake of the file and of what it
+/// imports is in the diagnostics.
 pub fn load_model(world: &dyn World, path: &Path) -> Loaded {
     let mut loaded = Loaded::default();
-    read_model(world, path, &mut loaded);
+    read_model(world, path, Root::Implied, &mut loaded);
     loaded
 }
 
@@ -79,58 +91,76 @@ pub fn load_model(world: &dyn World, path: &Path) -> Loaded {
 /// together: [`check`](crate::check) finds these.
 pub fn load_experiment(world: &dyn World, path: &Path) -> Loaded {
     let mut loaded = Loaded::default();
-    let Some(bytes) = read_bytes(world, path, &mut loaded) else { return loaded };
+    read_experiment(world, path, Root::Implied, &mut loaded);
+    loaded
+}
+
+fn read_experiment(world: &dyn World, path: &Path, root: Root<'_>, loaded: &mut Loaded) {
+    let Some(bytes) = read_bytes(world, path, loaded) else { return };
     let text = String::from_utf8_lossy(&bytes).into_owned();
     loaded.provenance.experiment.clone_from(&text);
     let source = loaded.sources.add(path.display().to_string(), text.clone());
     let folder = path.parent().unwrap_or(Path::new(""));
-    let (setup, model, mistakes) = read_setup(source, &text, folder);
-    loaded.setup = setup;
-    loaded.diagnostics.extend(mistakes);
-    if let Some(model) = model {
-        read_model(world, &model, &mut loaded);
+    let reading = read_setup(source, &text, folder);
+    loaded.setup = reading.setup;
+    loaded.diagnostics.extend(reading.diagnostics);
+    if let Some(model) = reading.model {
+        let root = match (root, &reading.system) {
+            (Root::Named(name), _) => Root::Named(name),
+            (_, Some(name)) => Root::Named(name),
+            // An experiment is done with one component.
+            (_, None) => Root::Implied,
+        };
+        read_model(world, &model, root, loaded);
     }
-    loaded
 }
 
-fn read_model(world: &dyn World, path: &Path, loaded: &mut Loaded) {
-    if kind(path) != Some(Kind::Model) {
-        loaded.diagnostics.push(unknown_kind(path, "SOPHY XML models (.xml)"));
+fn read_model(world: &dyn World, path: &Path, root: Root<'_>, loaded: &mut Loaded) {
+    let kind = kind(path);
+    if !matches!(kind, Some(Kind::Hsml | Kind::Xml)) {
+        loaded.diagnostics.push(unknown_kind(path, MODELS));
         return;
     }
-    let Some(bytes) = read_bytes(world, path, loaded) else { return };
-    loaded.provenance.model_file = path.to_owned();
-    loaded.provenance.model_hash = hash(&bytes);
+    let world = &Digesting::new(world);
     // Text to declarations.
-    let reading = sophy_xml::read(&mut loaded.sources, &path.display().to_string(), &bytes);
-    let mut broken = reading.diagnostics.has_errors();
-    loaded.diagnostics.extend(reading.diagnostics);
-    loaded.declarations = reading.declarations;
+    let (source, declarations, mistakes) = if kind == Some(Kind::Hsml) {
+        match read_with_imports(world, &mut loaded.sources, path) {
+            Ok(reading) => (reading.source, Some(reading.declarations), reading.diagnostics),
+            Err(error) => return unreadable(path, &error.reason, loaded),
+        }
+    } else {
+        let Some(bytes) = read_bytes(world, path, loaded) else { return };
+        let reading = sophy_xml::read(&mut loaded.sources, &path.display().to_string(), &bytes);
+        (reading.source, reading.declarations, reading.diagnostics)
+    };
+    let mut broken = mistakes.has_errors();
+    loaded.diagnostics.extend(mistakes);
     // Declarations to a model.
-    if let Some(declarations) = &loaded.declarations {
-        let (model, mistakes) = analyse(declarations);
+    if let Some(declarations) = &declarations {
+        let (model, mistakes) = analyse(declarations, root, source, &loaded.sources, world);
         broken |= mistakes.has_errors();
         loaded.diagnostics.extend(mistakes);
         loaded.model = model.filter(|_| !broken);
     }
+    loaded.source = Some(source);
+    loaded.declarations = declarations;
+    path.clone_into(&mut loaded.provenance.model_file);
+    loaded.provenance.model_hash = world.hash();
 }
 
 fn read_bytes(world: &dyn World, path: &Path, loaded: &mut Loaded) -> Option<Vec<u8>> {
-    match world.read(path) {
-        Ok(bytes) => Some(bytes),
-        Err(error) => {
-            loaded.unreadable = true;
-            loaded
-                .diagnostics
-                .push(nowhere("FI0001", format!("cannot read {}: {}", path.display(), error.reason)));
-            None
-        }
-    }
+    world.read(path).map_err(|error| unreadable(path, &error.reason, loaded)).ok()
+}
+
+fn unreadable(path: &Path, reason: &str, loaded: &mut Loaded) {
+    loaded.unreadable = true;
+    loaded.diagnostics.push(nowhere("FI0001", format!("cannot read {}: {reason}", path.display())));
 }
 
 fn kind(path: &Path) -> Option<Kind> {
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "xml" => Some(Kind::Model),
+        "hsml" => Some(Kind::Hsml),
+        "xml" => Some(Kind::Xml),
         "toml" => Some(Kind::Experiment),
         _ => None,
     }
@@ -153,13 +183,4 @@ pub(crate) fn nowhere(code: &'static str, message: String) -> Diagnostic {
         notes: Vec::new(),
         helps: Vec::new(),
     }
-}
-
-fn hash(bytes: &[u8]) -> String {
-    use std::fmt::Write;
-    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
-        // Writing into a string does not fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }

@@ -3,10 +3,12 @@ use crate::load::{Loaded, Provenance, nowhere};
 use crate::metadata;
 use crate::setup::{Outputs, Setup};
 use crate::simulate::begin;
+use sophy_analysis::algebraic_loop;
 use sophy_diagnostics::{Diagnostic, Diagnostics};
 use sophy_files::{EventLog, FileError, PlotOptions, open_sink, plot};
 use sophy_hybrid::Accumulation;
 use sophy_ir::{Model, System};
+use sophy_passes::{FlattenError, PassError};
 use sophy_record::{EventRecord, Metadata, Schema, Sink, SinkError, Table};
 use sophy_run::{ExperimentError, Observer, Outcome, Progress, Recorder, Report, Run};
 use std::ops::ControlFlow;
@@ -25,12 +27,20 @@ pub struct Finished {
     pub zeno: Option<Diagnostic>,
 }
 
-/// Finds the mistakes that show only when a model and its experiment are put together.
+/// Finds the mistakes that show only when the components of a model are put together, and when a model and its
+/// experiment are.
 ///
-/// Adds nothing if the model has errors. The first instant of the run is computed, no file is written.
+/// Adds nothing if the model has errors. With an experiment the first instant of the run is computed; no file is
+/// written.
 pub fn check(loaded: &Loaded) -> Diagnostics {
     let mut found = Diagnostics::default();
     let Some(model) = &loaded.model else { return found };
+    if loaded.provenance.experiment.is_empty() {
+        if let Err(error) = sophy_passes::lower(model) {
+            found.push(composition(&error));
+        }
+        return found;
+    }
     match begin(model, &loaded.setup.experiment) {
         Ok((_, recorder)) => {
             let mistakes = output_mistakes(&loaded.setup.outputs, recorder.schema());
@@ -46,10 +56,22 @@ pub fn explain(error: &Error, setup: &Setup) -> Vec<Diagnostic> {
     match error {
         Error::Experiment(errors) => errors.iter().map(|error| setup.explain(error)).collect(),
         Error::Failure(failure) => vec![failure.diagnostic()],
-        Error::Composition(error) => vec![nowhere("EX0202", error.to_string())],
+        Error::Composition(error) => vec![composition(error)],
         Error::Sink(error) => vec![nowhere("FI0003", error.to_string())],
         Error::File(error) => vec![nowhere("FI0003", error.to_string())],
     }
+}
+
+/// Why components do not make a system; an algebraic loop equation by equation.
+fn composition(error: &PassError) -> Diagnostic {
+    if let PassError::Flatten(FlattenError::AlgebraicLoop(equations)) = error
+        && let Some(first) = equations.iter().find_map(|equation| equation.span)
+    {
+        let right = |text: &str| text.split_once(" = ").map_or(text, |(_, right)| right).to_owned();
+        let equations: Vec<_> = equations.iter().map(|e| (e.name.clone(), right(&e.text), e.span)).collect();
+        return algebraic_loop(&equations, first);
+    }
+    nowhere("EX0202", error.to_string())
 }
 
 /// Runs a model and writes what the setup asks for; `observer` may watch and stop it.

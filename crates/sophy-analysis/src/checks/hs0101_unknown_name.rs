@@ -4,29 +4,26 @@
 use super::places::{further_places, grouped};
 use super::suggestion::suggest;
 use crate::findings::UnknownName;
-use crate::names::Names;
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0101");
 
-/// One message per name, however often it occurs; returns the names that were suggested.
-pub(crate) fn find(
-    unknown_names: &[UnknownName],
-    names: &Names<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<String> {
-    let mut suggested = Vec::new();
+/// One message per name, however often it occurs, with the name that was suggested.
+pub(crate) fn find(unknown_names: &[UnknownName]) -> Vec<(Diagnostic, Option<String>)> {
     let values = unknown_names.iter().filter(|unknown| !unknown.called);
-    for (name, uses) in grouped(values.map(|unknown| (unknown.name.as_str(), unknown))) {
-        let mut candidates: Vec<&str> = uses.iter().flat_map(|u| &u.parameters).map(String::as_str).collect();
-        candidates.extend(names.values());
-        candidates.extend(["true", "false"].into_iter().filter(|word| word.eq_ignore_ascii_case(name)));
-        let spans: Vec<Span> = uses.iter().map(|unknown| unknown.span).collect();
-        let (diagnostic, meant) = diagnostic(name, &spans, &candidates);
-        suggested.extend(meant.map(str::to_owned));
-        diagnostics.push(diagnostic);
-    }
-    suggested
+    grouped(values.map(|unknown| (unknown.name.as_str(), unknown)))
+        .into_iter()
+        .map(|(name, uses)| {
+            let mut candidates: Vec<&str> =
+                uses.iter().flat_map(|u| &u.candidates).map(String::as_str).collect();
+            candidates.extend(["true", "false"].into_iter().filter(|word| word.eq_ignore_ascii_case(name)));
+            let mut seen = std::collections::HashSet::new();
+            candidates.retain(|candidate| seen.insert(*candidate));
+            let spans: Vec<Span> = uses.iter().map(|unknown| unknown.span).collect();
+            let (diagnostic, meant) = diagnostic(name, &spans, &candidates);
+            (diagnostic, meant.map(str::to_owned))
+        })
+        .collect()
 }
 
 fn diagnostic<'n>(name: &str, spans: &[Span], candidates: &[&'n str]) -> (Diagnostic, Option<&'n str>) {

@@ -3,53 +3,29 @@
 
 use super::places::{further_places, grouped};
 use super::suggestion::suggest;
-use crate::declarations::Declarations;
-use crate::lower::Strays;
-use crate::names::{Kind, Names};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use crate::component::Stray;
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0102");
 
-/// One message per name; returns the states that were meant, with the position of the location.
-pub(crate) fn find(
-    declarations: &Declarations,
-    strays: &Strays<'_>,
-    names: &Names<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<(usize, String)> {
-    let mut all_meant = Vec::new();
-    let named =
-        strays.equations.iter().map(|(location, e)| (e.target.value.as_str(), (*location, e.target.span)));
-    for (name, places) in grouped(named.filter(|(name, _)| !name.is_empty())) {
-        let written = &declarations.locations[places[0].0].dynamics;
-        let has_equation = |state: &&str| written.iter().any(|e| e.target.value == **state);
-        let (with, without): (Vec<&str>, Vec<&str>) = names.of_kind(Kind::State).partition(has_equation);
-        let candidates: Vec<&str> = without.into_iter().chain(with).collect();
-        let spans: Vec<Span> = places.iter().map(|&(_, span)| span).collect();
-        let (diagnostic, meant) = diagnostic(name, &spans, names, &candidates);
-        all_meant
-            .extend(meant.iter().flat_map(|meant| places.iter().map(|&(l, _)| (l, (*meant).to_owned()))));
-        diagnostics.push(diagnostic);
-    }
-    all_meant
+/// One message per name, with the state that was meant; `states` are the candidates, likelier ones first.
+pub(crate) fn find(strays: &[Stray], states: &[&str]) -> Vec<(Diagnostic, Option<String>)> {
+    let named = strays.iter().map(|stray| (stray.name.as_str(), stray));
+    grouped(named).into_iter().map(|(name, strays)| diagnostic(name, &strays, states)).collect()
 }
 
-fn diagnostic<'n>(
-    name: &str,
-    spans: &[Span],
-    names: &Names<'_>,
-    candidates: &[&'n str],
-) -> (Diagnostic, Option<&'n str>) {
-    if let Some(symbol) = names.symbol(name) {
-        let message = format!("`{name}` is {}, and only states have equations", symbol.kind.with_article());
-        let error = Diagnostic::error(CODE, spans[0], message).label(symbol.span, "declared here");
+fn diagnostic(name: &str, strays: &[&Stray], states: &[&str]) -> (Diagnostic, Option<String>) {
+    let spans: Vec<Span> = strays.iter().map(|stray| stray.span).collect();
+    if let Some((kind, declared)) = strays[0].found {
+        let message = format!("`{name}` is {}, and only states have equations", kind.with_article());
+        let error = Diagnostic::error(CODE, spans[0], message).label(declared, "declared here");
         let error = further_places(error, &spans[1..]);
         return (error.help(format!("declare `{name}` as a state, or delete the equation")), None);
     }
-    let suggestion = suggest(name, candidates, "states");
+    let suggestion = suggest(name, states, "states");
     let message = format!("`{name}` has an equation, but is not declared as a state");
     let error = further_places(Diagnostic::error(CODE, spans[0], message), &spans[1..]);
-    (error.help(suggestion.help), suggestion.meant)
+    (error.help(suggestion.help), suggestion.meant.map(str::to_owned))
 }
 
 #[cfg(test)]

@@ -2,42 +2,28 @@
 
 use super::places::{further_places, grouped};
 use super::suggestion::suggest;
-use crate::declarations::Declarations;
-use crate::lower::Strays;
-use crate::names::{Kind, Names};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use crate::component::Stray;
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0103");
 
-/// One message per name. States without an equation in the location are the likelier ones.
-pub(crate) fn find(
-    declarations: &Declarations,
-    strays: &Strays<'_>,
-    names: &Names<'_>,
-    diagnostics: &mut Diagnostics,
-) {
-    let named =
-        strays.resets.iter().map(|(location, r)| (r.target.value.as_str(), (*location, r.target.span)));
-    for (name, places) in grouped(named.filter(|(name, _)| !name.is_empty())) {
-        let written = &declarations.locations[places[0].0].dynamics;
-        let has_equation = |state: &&str| written.iter().any(|e| e.target.value == **state);
-        let (with, without): (Vec<&str>, Vec<&str>) = names.of_kind(Kind::State).partition(has_equation);
-        let candidates: Vec<&str> = without.into_iter().chain(with).collect();
-        let spans: Vec<Span> = places.iter().map(|&(_, span)| span).collect();
-        diagnostics.push(diagnostic(name, &spans, names, &candidates));
-    }
+/// One message per name; `states` are the candidates, likelier ones first.
+pub(crate) fn find(strays: &[Stray], states: &[&str]) -> Vec<Diagnostic> {
+    let named = strays.iter().map(|stray| (stray.name.as_str(), stray));
+    grouped(named).into_iter().map(|(name, strays)| diagnostic(name, &strays, states)).collect()
 }
 
-fn diagnostic(name: &str, spans: &[Span], names: &Names<'_>, candidates: &[&str]) -> Diagnostic {
-    if let Some(symbol) = names.symbol(name) {
-        let message = format!("`{name}` is {}, and only states can be reset", symbol.kind.with_article());
-        let error = Diagnostic::error(CODE, spans[0], message).label(symbol.span, "declared here");
+fn diagnostic(name: &str, strays: &[&Stray], states: &[&str]) -> Diagnostic {
+    let spans: Vec<Span> = strays.iter().map(|stray| stray.span).collect();
+    if let Some((kind, declared)) = strays[0].found {
+        let message = format!("`{name}` is {}, and only states can be reset", kind.with_article());
+        let error = Diagnostic::error(CODE, spans[0], message).label(declared, "declared here");
         return further_places(error, &spans[1..])
             .help(format!("declare `{name}` as a state, or delete the reset"));
     }
     let message = format!("`{name}` is reset, but is not declared as a state");
     further_places(Diagnostic::error(CODE, spans[0], message), &spans[1..])
-        .help(suggest(name, candidates, "states").help)
+        .help(suggest(name, states, "states").help)
 }
 
 #[cfg(test)]

@@ -2,21 +2,23 @@
 
 use super::suggestion::suggest;
 use crate::declarations::Spanned;
-use crate::names::{Kind, Names};
+use crate::lower::{SymbolKind, Symbols};
 use sophy_diagnostics::{Code, Diagnostic};
 
 pub(crate) const CODE: Code = Code("HS0105");
 
-pub(crate) fn diagnostic(target: &Spanned<String>, names: &Names<'_>) -> Diagnostic {
+pub(crate) fn diagnostic(target: &Spanned<String>, symbols: &Symbols<'_>) -> Diagnostic {
     let name = &target.value;
-    if let Some(symbol) = names.symbol(name) {
+    if let Some(symbol) = symbols.get(name) {
         let what = symbol.kind.with_article();
         let message = format!("`{name}` is {what}, and only states have initial values");
         return Diagnostic::error(CODE, target.span, message)
             .label(symbol.span, "declared here")
             .help("delete the initial value");
     }
-    let states: Vec<&str> = names.of_kind(Kind::State).collect();
+    let names = symbols.names();
+    let states: Vec<&str> =
+        names.iter().filter(|(_, s)| s.kind == SymbolKind::State).map(|(name, _)| *name).collect();
     let message = format!("`{name}` has an initial value, but is not declared as a state");
     Diagnostic::error(CODE, target.span, message).help(suggest(name, &states, "states").help)
 }

@@ -2,31 +2,35 @@
 
 use super::hs0108_defined_twice;
 use super::suggestion::suggest;
-use crate::declarations::{Declarations, Spanned};
-use crate::names::{Kind, Names};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use crate::declarations::{ComponentDeclaration, Spanned};
+use crate::lower::{SymbolKind, Symbols};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 use std::collections::HashMap;
 
 pub(crate) const CODE: Code = Code("HS0106");
 
 /// Looks at the names of all units; one that is given twice is reported too.
-pub(crate) fn find(declarations: &Declarations, names: &Names<'_>, diagnostics: &mut Diagnostics) {
+pub(crate) fn find(declaration: &ComponentDeclaration, symbols: &Symbols<'_>) -> Vec<Diagnostic> {
     let mut first: HashMap<&str, Span> = HashMap::new();
-    for (name, _) in declarations.units.iter().filter(|(name, _)| !name.value.is_empty()) {
-        if names.symbol(&name.value).is_none_or(|symbol| symbol.kind == Kind::Function) {
-            diagnostics.push(diagnostic(name, names));
+    let mut found = Vec::new();
+    for (name, _) in declaration.units.iter().filter(|(name, _)| !name.value.is_empty()) {
+        if symbols.get(&name.value).is_none_or(|symbol| symbol.kind == SymbolKind::Function) {
+            found.push(diagnostic(name, symbols));
         } else if let Some(&first) = first.get(name.value.as_str()) {
             let what = format!("the unit of `{}`", name.value);
-            diagnostics.push(hs0108_defined_twice::diagnostic(&what, first, name.span));
+            found.push(hs0108_defined_twice::diagnostic(&what, first, name.span));
         } else {
             first.insert(&name.value, name.span);
         }
     }
+    found
 }
 
-fn diagnostic(name: &Spanned<String>, names: &Names<'_>) -> Diagnostic {
-    let kinds = [Kind::State, Kind::Input, Kind::Output, Kind::Constant];
-    let candidates: Vec<&str> = kinds.into_iter().flat_map(|kind| names.of_kind(kind)).collect();
+fn diagnostic(name: &Spanned<String>, symbols: &Symbols<'_>) -> Diagnostic {
+    let kinds = [SymbolKind::State, SymbolKind::Input, SymbolKind::Output, SymbolKind::Constant];
+    let names = symbols.names();
+    let of_kind = |kind| names.iter().filter(move |(_, s)| s.kind == kind).map(|(name, _)| *name);
+    let candidates: Vec<&str> = kinds.into_iter().flat_map(of_kind).collect();
     let message = format!("`{}` has a unit, but is not declared", name.value);
     Diagnostic::error(CODE, name.span, message)
         .help(suggest(&name.value, &candidates, "names that exist").help)

@@ -1,30 +1,33 @@
 //! A name is declared twice, so that it is not clear what is meant where it is used. States, inputs, outputs,
 //! constants and functions share their names; only an output may have the name of a state, and is that state.
 
-use crate::names::Repeated;
+use crate::lower::SymbolKind;
 use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0107");
 
-pub(crate) fn diagnostic(repeated: &Repeated<'_>) -> Diagnostic {
-    let (name, first, again) = (repeated.name, repeated.first, repeated.again);
-    let message = if first.kind == again.kind {
+/// `first` and `again` are what the name was declared as, and where.
+pub(crate) fn diagnostic(name: &str, first: (SymbolKind, Span), again: (SymbolKind, Span)) -> Diagnostic {
+    let message = if first.0 == again.0 {
         format!("`{name}` is declared twice")
     } else {
-        format!(
-            "`{name}` is declared twice: as {} and as {}",
-            first.kind.with_article(),
-            again.kind.with_article()
-        )
+        format!("`{name}` is declared twice: as {} and as {}", first.0.with_article(), again.0.with_article())
     };
-    Diagnostic::error(CODE, again.span, message)
-        .label(first.span, format!("first declared here, as {}", first.kind.with_article()))
+    Diagnostic::error(CODE, again.1, message)
+        .label(first.1, format!("first declared here, as {}", first.0.with_article()))
         .help(format!("delete or rename one `{name}`"))
 }
 
 /// Two parameters of a function have one name.
 pub(crate) fn parameter(name: &str, first: Span, again: Span) -> Diagnostic {
     Diagnostic::error(CODE, again, format!("two parameters are called `{name}`"))
+        .label(first, "the first")
+        .help("rename one of them")
+}
+
+/// Two components have one name.
+pub(crate) fn component(name: &str, first: Span, again: Span) -> Diagnostic {
+    Diagnostic::error(CODE, again, format!("two components are called `{name}`"))
         .label(first, "the first")
         .help("rename one of them")
 }
@@ -67,10 +70,10 @@ mod tests {
     #[test]
     fn an_output_may_be_a_state() {
         let model = check_model("state x\noutput x\nlocation A\n der x = 1\n out x = x", "");
-        assert_eq!(model.variables.len(), 2);
-        let map = &model.components[0].locations[0].outputs[0];
+        assert_eq!(model.root().variables.len(), 2);
+        let map = &crate::testing::automaton(&model).locations[0].values[0];
         assert_eq!(
-            model.graph.node(map.right),
+            model.root().graph.node(map.right),
             sophy_ir::Node::Leaf(sophy_ir::Leaf::Variable(sophy_ir::VariableId(0)))
         );
     }

@@ -1,35 +1,12 @@
 //! An output is not defined in a location: while the system is there, it would have no value.
 
 use super::places::further_places;
-use crate::declarations::Declarations;
-use crate::names::{Kind, Names};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0109");
 
-/// One message per output. An output that a misspelt map was meant for (`meant`) has been reported.
-pub(crate) fn find(
-    declarations: &Declarations,
-    names: &Names<'_>,
-    meant: &[(usize, String)],
-    diagnostics: &mut Diagnostics,
-) {
-    for output in names.of_kind(Kind::Output) {
-        let lacking: Vec<(&str, Span)> = declarations
-            .locations
-            .iter()
-            .enumerate()
-            .filter(|(_, location)| location.outputs.iter().all(|map| map.target.value != output))
-            .filter(|(position, _)| !meant.iter().any(|(l, name)| l == position && name == output))
-            .map(|(_, location)| (location.name.value.as_str(), location.name.span))
-            .collect();
-        if let (Some(symbol), false) = (names.symbol(output), lacking.is_empty()) {
-            diagnostics.push(diagnostic(output, symbol.span, &lacking));
-        }
-    }
-}
-
-fn diagnostic(output: &str, declared: Span, lacking: &[(&str, Span)]) -> Diagnostic {
+/// `lacking` are the locations that do not define the output; there is one at least.
+pub(crate) fn diagnostic(output: &str, declared: Span, lacking: &[(&str, Span)]) -> Diagnostic {
     let spans: Vec<Span> = lacking.iter().map(|&(_, span)| span).collect();
     let message = format!("output `{output}` is not defined in location `{}`", lacking[0].0);
     let error = Diagnostic::error(CODE, spans[0], message).label(declared, "declared here");

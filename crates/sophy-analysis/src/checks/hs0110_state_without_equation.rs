@@ -1,53 +1,29 @@
 //! A state has no equation in a location: it keeps its value there, which may not be what was meant. If no
 //! location has one, the equation was forgotten, and the model is refused.
 
-use crate::declarations::{Declarations, LocationDeclaration};
-use crate::names::{Kind, Names};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0110");
 
-/// Looks through all states and locations. A state that a misspelt equation was meant for (`meant`, with the
-/// position of the location) has been reported.
-pub(crate) fn find(
-    declarations: &Declarations,
-    names: &Names<'_>,
-    meant: &[(usize, String)],
-    diagnostics: &mut Diagnostics,
-) {
-    if declarations.locations.is_empty() {
-        return;
-    }
-    for state in names.of_kind(Kind::State) {
-        let Some(symbol) = names.symbol(state) else { continue };
-        let defines =
-            |location: &LocationDeclaration| location.dynamics.iter().any(|e| e.target.value == state);
-        let was_meant = |position: usize| meant.iter().any(|(l, name)| *l == position && name == state);
-        if !declarations.locations.iter().any(defines) {
-            if !meant.iter().any(|(_, name)| name == state) {
-                diagnostics.push(nowhere(state, symbol.span));
-            }
-            continue;
-        }
-        for (position, location) in declarations.locations.iter().enumerate() {
-            if !defines(location) && !was_meant(position) {
-                diagnostics.push(diagnostic(state, symbol.span, location));
-            }
-        }
-    }
-}
-
-fn diagnostic(state: &str, declared: Span, location: &LocationDeclaration) -> Diagnostic {
-    let message = format!("state `{state}` has no equation in location `{}`", location.name.value);
-    Diagnostic::warning(CODE, location.name.span, message)
+/// Other locations have an equation for it.
+pub(crate) fn diagnostic(state: &str, declared: Span, location: &str, location_span: Span) -> Diagnostic {
+    let message = format!("state `{state}` has no equation in location `{location}`");
+    Diagnostic::warning(CODE, location_span, message)
         .label(declared, "declared here")
         .note("it keeps its value while the system is in this location")
         .help(format!("if that is meant, say so: `der({state}) = 0`"))
 }
 
-fn nowhere(state: &str, declared: Span) -> Diagnostic {
-    Diagnostic::error(CODE, declared, format!("state `{state}` has no equation in any location"))
-        .help(format!("add `der({state}) = …`; if it changes only at transitions, `der({state}) = 0`"))
+/// No location, or the only one, has an equation for it.
+pub(crate) fn nowhere(state: &str, declared: Span, has_locations: bool) -> Diagnostic {
+    let place = if has_locations { " in any location" } else { "" };
+    let otherwise = if has_locations {
+        format!("if it changes only at transitions, `der({state}) = 0`")
+    } else {
+        "if it changes only at events, declare it as a mode".to_owned()
+    };
+    Diagnostic::error(CODE, declared, format!("state `{state}` has no equation{place}"))
+        .help(format!("add `der({state}) = …`; {otherwise}"))
 }
 
 #[cfg(test)]
@@ -71,8 +47,8 @@ mod tests {
                note: it keeps its value while the system is in this location
                help: if that is meant, say so: `der(ETA2) = 0`",
         );
-        assert_eq!(model.components[0].locations[1].dynamics.len(), 1);
-        assert_eq!(model.variables[1].kind, VariableKind::State(None));
+        assert_eq!(crate::testing::automaton(&model).locations[1].dynamics.len(), 1);
+        assert_eq!(model.root().variables[1].kind, VariableKind::State(None));
     }
 
     #[test]

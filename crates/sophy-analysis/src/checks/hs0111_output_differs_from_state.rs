@@ -7,9 +7,9 @@ use sophy_diagnostics::{Code, Diagnostic, Span};
 pub(crate) const CODE: Code = Code("HS0111");
 
 pub(crate) fn diagnostic(map: &EquationDeclaration, declared: Span) -> Diagnostic {
-    let name = &map.target.value;
+    let name = &map.target.name.value;
     let message = format!("output `{name}` has the name of a state, but another value");
-    Diagnostic::error(CODE, map.right.map.whole(), message)
+    Diagnostic::error(CODE, map.right.span, message)
         .label(declared, "the state")
         .help(format!("give the output another name, or write `{name} = {name}`"))
 }

@@ -1,12 +1,12 @@
 //! Two locations have one name, so that a transition to it could mean either.
 
-use crate::declarations::Declarations;
+use crate::declarations::ComponentDeclaration;
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
 use std::collections::HashMap;
 
 pub(crate) const CODE: Code = Code("HS0112");
 
-pub(crate) fn find(declarations: &Declarations, diagnostics: &mut Diagnostics) {
+pub(crate) fn find(declarations: &ComponentDeclaration, diagnostics: &mut Diagnostics) {
     let mut first: HashMap<&str, Span> = HashMap::new();
     for location in declarations.locations.iter().filter(|location| !location.name.value.is_empty()) {
         let (name, span) = (location.name.value.as_str(), location.name.span);

@@ -1,20 +1,23 @@
 //! Two transitions of one location have one name, so that the event log cannot tell which was taken.
 
-use crate::declarations::Declarations;
+use crate::declarations::{ComponentDeclaration, TriggerDeclaration};
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
 use std::collections::HashMap;
 
 pub(crate) const CODE: Code = Code("HS0113");
 
-pub(crate) fn find(declarations: &Declarations, diagnostics: &mut Diagnostics) {
+pub(crate) fn find(declarations: &ComponentDeclaration, diagnostics: &mut Diagnostics) {
     for location in &declarations.locations {
-        let mut first: HashMap<&str, Span> = HashMap::new();
+        let mut first: HashMap<&str, (Span, bool)> = HashMap::new();
         for transition in location.transitions.iter().filter(|transition| !transition.name.value.is_empty()) {
             let (name, span) = (transition.name.value.as_str(), transition.name.span);
+            // What is taken while a guard holds and what is taken on an event may be two forms of one.
+            let guarded = matches!(transition.trigger, TriggerDeclaration::When(_));
             match first.get(name) {
-                Some(&first) => diagnostics.push(diagnostic(name, &location.name.value, first, span)),
+                Some(&(_, other)) if other != guarded => {}
+                Some(&(first, _)) => diagnostics.push(diagnostic(name, &location.name.value, first, span)),
                 None => {
-                    first.insert(name, span);
+                    first.insert(name, (span, guarded));
                 }
             }
         }

@@ -2,13 +2,13 @@
 
 use super::places::{further_places, grouped};
 use super::suggestion::suggest;
-use crate::declarations::Declarations;
+use crate::declarations::ComponentDeclaration;
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
 
 pub(crate) const CODE: Code = Code("HS0114");
 
 /// One message per name.
-pub(crate) fn find(declarations: &Declarations, diagnostics: &mut Diagnostics) {
+pub(crate) fn find(declarations: &ComponentDeclaration, diagnostics: &mut Diagnostics) {
     let locations: Vec<&str> = declarations.locations.iter().map(|l| l.name.value.as_str()).collect();
     let destinations = declarations.locations.iter().flat_map(|l| &l.transitions).map(|t| &t.destination);
     let unknown = destinations.filter(|destination| {

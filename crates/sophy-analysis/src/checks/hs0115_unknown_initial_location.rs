@@ -1,12 +1,12 @@
 //! The location in which a run is to start does not exist.
 
 use super::suggestion::suggest;
-use crate::declarations::{Declarations, Spanned};
+use crate::declarations::{ComponentDeclaration, Spanned};
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
 
 pub(crate) const CODE: Code = Code("HS0115");
 
-pub(crate) fn find(declarations: &Declarations, diagnostics: &mut Diagnostics) {
+pub(crate) fn find(declarations: &ComponentDeclaration, diagnostics: &mut Diagnostics) {
     let Some(initial) = &declarations.initial_location else { return };
     let locations: Vec<&str> = declarations.locations.iter().map(|l| l.name.value.as_str()).collect();
     if !initial.value.is_empty() && !locations.is_empty() && !locations.contains(&initial.value.as_str()) {

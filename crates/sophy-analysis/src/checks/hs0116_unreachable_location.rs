@@ -1,8 +1,8 @@
 //! No chain of transitions leads from the first location to this one. Usually a destination was mistaken, or
 //! another location was to be the first.
 
-use crate::declarations::Declarations;
-use crate::lower::LoweredLocation;
+use crate::component::BuiltLocation;
+use crate::declarations::{ComponentDeclaration, Dialect, TriggerDeclaration};
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
 use sophy_ir::{Graph, Node};
 
@@ -11,43 +11,48 @@ pub(crate) const CODE: Code = Code("HS0116");
 /// Follows all transitions from the first location. Says nothing while a destination is unknown: it may be the
 /// missing way.
 pub(crate) fn find(
-    declarations: &Declarations,
-    locations: &[LoweredLocation],
+    declaration: &ComponentDeclaration,
+    locations: &[BuiltLocation<'_>],
     graph: &Graph,
     diagnostics: &mut Diagnostics,
 ) {
     let all_known = locations.iter().flat_map(|l| &l.transitions).all(|t| t.destination.is_some());
-    let first = match &declarations.initial_location {
-        Some(name) => declarations.locations.iter().position(|l| l.name.value == name.value),
+    let first = match &declaration.initial_location {
+        Some(name) => declaration.locations.iter().position(|l| l.name.value == name.value),
         None => Some(0),
     };
-    let (Some(first), true, false) = (first, all_known, locations.is_empty()) else { return };
+    let (Some(first), true, false) = (first, all_known, declaration.locations.is_empty()) else { return };
     let mut reached = vec![false; locations.len()];
     let mut pending = vec![first];
     while let Some(position) = pending.pop() {
         if std::mem::replace(&mut reached[position], true) {
             continue;
         }
-        let written = &declarations.locations[position].transitions;
-        for (written, lowered) in written.iter().zip(&locations[position].transitions) {
-            let never = lowered.guard.is_some_and(|guard| graph.node(guard) == Node::Boolean(false));
-            if !(never && written.input_events.is_empty()) {
-                pending.extend(lowered.destination);
+        for transition in &locations[position].transitions {
+            let never = transition.guard.is_some_and(|guard| graph.node(guard) == Node::Boolean(false));
+            let by_event = match &transition.declaration.trigger {
+                TriggerDeclaration::WhenOrOn(_, events) => !events.is_empty(),
+                _ => false,
+            };
+            if !never || by_event {
+                pending.extend(transition.destination);
             }
         }
     }
-    let start = &declarations.locations[first].name;
-    for (location, _) in declarations.locations.iter().zip(reached).filter(|(_, reached)| !reached) {
-        let repeated = declarations.locations.iter().filter(|l| l.name.value == location.name.value).count();
+    let start = &declaration.locations[first].name;
+    let whole = if declaration.dialect == Dialect::Xml { "run" } else { "component" };
+    for (location, _) in declaration.locations.iter().zip(reached).filter(|(_, reached)| !reached) {
+        let repeated = declaration.locations.iter().filter(|l| l.name.value == location.name.value).count();
         if repeated == 1 {
-            diagnostics.push(diagnostic(&location.name.value, location.name.span, &start.value, start.span));
+            let (name, span) = (&location.name.value, location.name.span);
+            diagnostics.push(diagnostic(name, span, &start.value, start.span, whole));
         }
     }
 }
 
-fn diagnostic(name: &str, span: Span, start: &str, start_span: Span) -> Diagnostic {
+fn diagnostic(name: &str, span: Span, start: &str, start_span: Span, whole: &str) -> Diagnostic {
     Diagnostic::warning(CODE, span, format!("location `{name}` cannot be reached"))
-        .label(start_span, "a run starts here")
+        .label(start_span, format!("a {whole} starts here"))
         .note(format!("no chain of transitions leads from `{start}` to `{name}`"))
         .help("add a transition to it, or start in another location")
 }

@@ -1,27 +1,18 @@
 //! A declared name is one that every model knows, such as `time` or `sin`. The declared one is meant from then on,
 //! which a reader may overlook.
 
-use crate::declarations::Declarations;
-use crate::names::Names;
 use crate::predefined::{Predefined, QUANTITIES};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0117");
 
-pub(crate) fn find(declarations: &Declarations, names: &Names<'_>, diagnostics: &mut Diagnostics) {
-    for name in QUANTITIES.into_iter().chain(Predefined::names()) {
-        if let Some(symbol) = names.symbol(name) {
-            diagnostics.push(diagnostic(name, symbol.span, symbol.kind.with_article()));
-        }
-    }
-    for parameter in declarations.functions.iter().flat_map(|function| &function.parameters) {
-        if QUANTITIES.contains(&parameter.value.as_str()) || Predefined::named(&parameter.value).is_some() {
-            diagnostics.push(diagnostic(&parameter.value, parameter.span, "a parameter"));
-        }
-    }
+/// Whether every model knows the name.
+pub(crate) fn is_predefined(name: &str) -> bool {
+    QUANTITIES.contains(&name) || Predefined::named(name).is_some()
 }
 
-fn diagnostic(name: &str, span: Span, what: &str) -> Diagnostic {
+/// `what` is what the name is declared as.
+pub(crate) fn diagnostic(name: &str, span: Span, what: &str) -> Diagnostic {
     Diagnostic::warning(CODE, span, format!("`{name}` hides the predefined `{name}`"))
         .label_main(format!("declared as {what}"))
         .help("rename it, if only for the reader's sake")

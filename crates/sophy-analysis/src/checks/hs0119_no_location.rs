@@ -1,17 +1,10 @@
 //! A system without a location has no equations: there is nothing to run.
 
-use crate::declarations::Declarations;
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0119");
 
-pub(crate) fn find(declarations: &Declarations, diagnostics: &mut Diagnostics) {
-    if declarations.locations.is_empty() {
-        diagnostics.push(diagnostic(&declarations.name.value, declarations.name.span));
-    }
-}
-
-fn diagnostic(name: &str, span: Span) -> Diagnostic {
+pub(crate) fn diagnostic(name: &str, span: Span) -> Diagnostic {
     Diagnostic::error(CODE, span, format!("system `{name}` has no location"))
         .help("a system that does not switch has one location, with all its equations")
 }

@@ -4,19 +4,23 @@
 use super::places::{further_places, grouped};
 use super::suggestion::suggest;
 use crate::findings::UnknownName;
-use crate::names::Names;
 use crate::predefined::Predefined;
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0201");
 
 /// One message per name.
-pub(crate) fn find(unknown_names: &[UnknownName], names: &Names<'_>, diagnostics: &mut Diagnostics) {
-    let functions = names.functions();
+pub(crate) fn find(unknown_names: &[UnknownName]) -> Vec<Diagnostic> {
     let called = unknown_names.iter().filter(|unknown| unknown.called);
-    for (name, spans) in grouped(called.map(|unknown| (unknown.name.as_str(), unknown.span))) {
-        diagnostics.push(diagnostic(name, &spans, &functions));
-    }
+    let groups = grouped(called.map(|unknown| (unknown.name.as_str(), unknown))).into_iter();
+    groups
+        .map(|(name, uses)| {
+            let spans: Vec<Span> = uses.iter().map(|unknown| unknown.span).collect();
+            let functions = uses.iter().take(1).flat_map(|unknown| &unknown.candidates);
+            let functions: Vec<&str> = functions.map(String::as_str).collect();
+            diagnostic(name, &spans, &functions)
+        })
+        .collect()
 }
 
 fn diagnostic(name: &str, spans: &[Span], functions: &[&str]) -> Diagnostic {
@@ -35,6 +39,13 @@ pub(crate) fn not_a_function(span: Span, name: &str, what: &str, declared: Optio
         Some(declared) => error.label(declared, "declared here"),
         None => error,
     }
+}
+
+/// What combines the values of a loop is `sum`, `min`, `max`, `all` or `any`.
+pub(crate) fn not_a_reduction(span: Span, name: &str) -> Diagnostic {
+    let reductions = ["sum", "min", "max", "all", "any"];
+    Diagnostic::error(CODE, span, format!("`{name}` cannot combine the values of a loop"))
+        .help(suggest(name, &reductions, "functions that can").help)
 }
 
 #[cfg(test)]

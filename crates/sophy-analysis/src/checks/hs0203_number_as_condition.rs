@@ -1,18 +1,19 @@
-//! A number stands where something must be true or false. Sophy does not guess which numbers are meant to be true.
-//! (The other way round is allowed: a condition used as a number is 1 or 0.)
+//! A number or text stands where a condition is needed. `if x` might mean `x > 0` or `x <> 0`, and the two differ.
 
 use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0203");
 
-/// `number` is the value, if it is known.
-pub(crate) fn diagnostic(span: Span, written: &str, number: Option<f64>) -> Diagnostic {
+/// `written` is a text, or a number with a value if that is known.
+pub(crate) fn diagnostic(span: Span, written: &str, number: Option<f64>, text: bool) -> Diagnostic {
+    let what = if text { "text" } else { "number" };
     let help = match number {
+        _ if text => format!("compare it with a text, for example `{written} = \"…\"`"),
         Some(0.0) => "write `false`".to_owned(),
         Some(_) => "write `true`".to_owned(),
         None => format!("compare it with something, for example `{written} > 0`"),
     };
-    Diagnostic::error(CODE, span, format!("`{written}` is a number, but a condition is needed here"))
+    Diagnostic::error(CODE, span, format!("`{written}` is a {what}, but a condition is needed here"))
         .help(help)
 }
 

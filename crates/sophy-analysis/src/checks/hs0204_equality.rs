@@ -10,20 +10,10 @@ pub(crate) const CODE: Code = Code("HS0204");
 pub(crate) fn diagnostic(span: Span, operator: Comparison, left: &str, right: &str) -> Diagnostic {
     let side = if operator == Comparison::Equal { "<" } else { ">" };
     let symbol = operator.symbol();
-    error(span, format!("`{left} {symbol} {right}` asks for equality of what varies continuously"))
+    let message = format!("`{left} {symbol} {right}` asks for equality of what varies continuously");
+    Diagnostic::error(CODE, span, message)
         .help("for the instant of a crossing compare with `<` or `>`")
         .help(format!("for values that change only at transitions write `abs({left} - {right}) {side} 0.5`"))
-}
-
-/// The comparison is in the function `name`, whose argument varies continuously.
-pub(crate) fn in_function(span: Span, name: &str, operator: Comparison) -> Diagnostic {
-    let symbol = operator.symbol();
-    error(span, format!("`{name}` compares what varies continuously with `{symbol}`"))
-        .help("compare with `<` or `>` in the function, or call it with constants")
-}
-
-fn error(span: Span, message: String) -> Diagnostic {
-    Diagnostic::error(CODE, span, message)
 }
 
 #[cfg(test)]
@@ -53,9 +43,10 @@ mod tests {
              state x
              location A
                der x = zero(k) + zero(x)",
-            "error[HS0204] line 5 `zero`: `zero` compares what varies continuously with `=`
-               line 2 `if a = 0 then 1 else 0`: it compares with `=` or `<>` here
-               help: compare with `<` or `>` in the function, or call it with constants",
+            "error[HS0204] line 5 `zero`: in this call of `zero`: `a = 0` asks for equality of what varies continuously
+               line 2 `=`: here
+               help: for the instant of a crossing compare with `<` or `>`
+               help: for values that change only at transitions write `abs(a - 0) < 0.5`",
         );
     }
 }

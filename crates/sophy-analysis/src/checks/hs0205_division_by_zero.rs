@@ -10,8 +10,8 @@ pub(crate) fn by_number(span: Span, written: &str) -> Diagnostic {
         .help("divide by something that is not 0")
 }
 
-/// The divisor is a constant whose value is 0, unless an experiment sets it.
-pub(crate) fn by_constant(span: Span, written: &str) -> Diagnostic {
+/// The divisor is a parameter whose value is 0, unless an experiment sets it.
+pub(crate) fn by_parameter(span: Span, written: &str) -> Diagnostic {
     Diagnostic::warning(
         CODE,
         span,

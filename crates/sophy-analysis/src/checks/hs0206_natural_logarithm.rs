@@ -2,15 +2,13 @@
 //! logarithm to base 10: an old model would change its meaning silently.
 
 use super::places::further_places;
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
+use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0206");
 
 /// One message for all uses.
-pub(crate) fn find(uses: &[Span], diagnostics: &mut Diagnostics) {
-    if !uses.is_empty() {
-        diagnostics.push(diagnostic(uses));
-    }
+pub(crate) fn find(uses: &[Span]) -> Option<Diagnostic> {
+    (!uses.is_empty()).then(|| diagnostic(uses))
 }
 
 fn diagnostic(uses: &[Span]) -> Diagnostic {

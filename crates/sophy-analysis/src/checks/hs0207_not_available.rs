@@ -1,31 +1,42 @@
 //! A quantity is used where it has no value: a constant holds before any state exists, and a function knows only
 //! what it is given.
 
-use crate::lower::Scope;
+use crate::declarations::Dialect;
+use crate::lower::{Place, Varies};
 use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0207");
 
-/// `name` is `what`; `scope` is where it is used.
+/// `name` is `what`; it is used in `place`, or in a function.
 pub(crate) fn diagnostic(
     span: Span,
     name: &str,
     what: &str,
-    scope: Scope<'_>,
+    place: Option<(Place, Dialect)>,
     declared: Option<Span>,
 ) -> Diagnostic {
-    let (place, help) = match scope {
-        Scope::Function { .. } => {
-            ("a function", format!("make `{name}` a parameter, and pass it where it is called"))
-        }
-        Scope::Constants { what } => (what, "use numbers and constants only".to_owned()),
-        Scope::Location { .. } => ("this expression", "use another quantity".to_owned()),
+    let (where_used, help) = match place {
+        None => ("a function", format!("make `{name}` a parameter, and pass it where it is called")),
+        Some((place, dialect)) => (place.what, available(place, dialect).to_owned()),
     };
-    let error =
-        Diagnostic::error(CODE, span, format!("{place} cannot use `{name}`, which is {what}")).help(help);
+    let error = Diagnostic::error(CODE, span, format!("{where_used} cannot use `{name}`, which is {what}"));
     match declared {
         Some(declared) => error.label(declared, "declared here"),
         None => error,
+    }
+    .help(help)
+}
+
+fn available(place: Place, dialect: Dialect) -> &'static str {
+    match place.most {
+        Varies::Never => "use numbers and constants only",
+        Varies::Parameters if dialect == Dialect::Xml => "use numbers and constants only",
+        Varies::Parameters => "use numbers, constants and parameters only",
+        Varies::Instants => "use what changes at instants only: modes, held inputs, parameters",
+        Varies::Continuously if !place.conditions => {
+            "`rises`, `falls`, `changes`, `chance` and events belong into conditions and actions"
+        }
+        Varies::Continuously => "use another quantity",
     }
 }
 

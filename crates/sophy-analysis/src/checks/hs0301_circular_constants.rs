@@ -1,23 +1,30 @@
 //! Constants define one another, perhaps by way of functions: none of them has a value.
 
-use crate::lower::Definition;
+use crate::declarations::{ExpressionText, ParameterDeclaration, Spanned};
 use sophy_diagnostics::{Code, Diagnostic};
 
 pub(crate) const CODE: Code = Code("HS0301");
 
 /// Each member needs the next, the last the first.
-pub(crate) fn diagnostic(members: &[&Definition<'_>]) -> Diagnostic {
-    let first = members[0];
+pub(crate) fn parameters(members: &[&ParameterDeclaration]) -> Diagnostic {
+    let members: Vec<(&Spanned<String>, &ExpressionText)> =
+        members.iter().map(|member| (&member.name, &member.value)).collect();
+    diagnostic(&members, "constant")
+}
+
+/// Members are constants, or functions that constants call.
+pub(crate) fn diagnostic(members: &[(&Spanned<String>, &ExpressionText)], what: &str) -> Diagnostic {
+    let (name, text) = members[0];
     let message = if members.len() == 1 {
-        format!("constant `{}` is defined by itself", first.name.value)
+        format!("{what} `{}` is defined by itself", name.value)
     } else {
-        "constants define one another".to_owned()
+        format!("{what}s define one another")
     };
-    let mut error = Diagnostic::error(CODE, first.text.map.whole(), message);
-    for member in &members[1..] {
-        error = error.label(member.text.map.whole(), format!("the value of `{}`", member.name.value));
+    let mut error = Diagnostic::error(CODE, text.span, message);
+    for (name, text) in &members[1..] {
+        error = error.label(text.span, format!("the value of `{}`", name.value));
     }
-    let names = members.iter().chain(&members[..1]).map(|member| format!("`{}`", member.name.value));
+    let names = members.iter().chain(&members[..1]).map(|(name, _)| format!("`{}`", name.value));
     let circle: Vec<String> = names.collect();
     error
         .note(format!("each needs the next: {}", circle.join(" → ")))
@@ -41,8 +48,7 @@ mod tests {
                der x = a + b + c + d",
             "error[HS0301] line 1 `2*b`: constants define one another
                line 2 `f(1)`: the value of `b`
-               line 5 `x + a`: the value of `f`
-               note: each needs the next: `a` → `b` → `f` → `a`
+               note: each needs the next: `a` → `b` → `a`
                help: give one of them a value of its own
              error[HS0301] line 4 `d`: constant `d` is defined by itself
                note: each needs the next: `d` → `d`

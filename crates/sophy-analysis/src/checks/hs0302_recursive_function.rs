@@ -10,9 +10,9 @@ pub(crate) const CODE: Code = Code("HS0302");
 pub(crate) fn diagnostic(members: &[&Definition<'_>]) -> Diagnostic {
     let first = members[0];
     let message = format!("function `{}` calls itself", first.name.value);
-    let mut error = Diagnostic::error(CODE, first.text.map.whole(), message);
+    let mut error = Diagnostic::error(CODE, first.text.span, message);
     for member in &members[1..] {
-        error = error.label(member.text.map.whole(), format!("the body of `{}`", member.name.value));
+        error = error.label(member.text.span, format!("the body of `{}`", member.name.value));
     }
     let names = members.iter().chain(&members[..1]).map(|member| format!("`{}`", member.name.value));
     let circle: Vec<String> = names.collect();

@@ -11,6 +11,13 @@ pub(crate) fn diagnostic(span: Span, name: &str, largest: usize) -> Diagnostic {
         .help("make an intermediate result an output, and use that")
 }
 
+/// Loops and arrays are written out.
+pub(crate) fn expression(span: Span, largest: usize) -> Diagnostic {
+    Diagnostic::error(CODE, span, "with this the component becomes too large")
+        .note(format!("functions, loops and arrays are written out; a component may have {largest} operations"))
+        .help("make it smaller, or divide it among several components")
+}
+
 #[cfg(test)]
 mod tests {
     use crate::testing::errors_of;

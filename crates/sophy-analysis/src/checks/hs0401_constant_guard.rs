@@ -1,44 +1,45 @@
 //! A guard does not depend on anything that changes: the transition is taken the instant its location is entered,
 //! or never. `false` together with input events is a way to say that only the events count.
 
-use crate::declarations::{Declarations, LocationDeclaration, TransitionDeclaration};
-use crate::lower::LoweredLocation;
+use crate::component::{BuiltLocation, BuiltTransition};
+use crate::declarations::TriggerDeclaration;
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
 use sophy_ir::{Graph, Node};
 
 pub(crate) const CODE: Code = Code("HS0401");
 
-pub(crate) fn find(
-    declarations: &Declarations,
-    locations: &[LoweredLocation],
-    graph: &Graph,
-    diagnostics: &mut Diagnostics,
-) {
-    for (location, lowered) in declarations.locations.iter().zip(locations) {
-        for (transition, lowered) in location.transitions.iter().zip(&lowered.transitions) {
-            if let Some(Node::Boolean(value)) = lowered.guard.map(|guard| graph.node(guard)) {
-                diagnostics_of(location, transition, value, diagnostics);
+pub(crate) fn find(locations: &[BuiltLocation<'_>], graph: &Graph, diagnostics: &mut Diagnostics) {
+    for location in locations {
+        for transition in &location.transitions {
+            if let Some(Node::Boolean(value)) = transition.guard.map(|guard| graph.node(guard)) {
+                let name = location.declaration.map_or("", |l| l.name.value.as_str());
+                diagnostics_of(name, transition, value, diagnostics);
             }
         }
     }
 }
 
 fn diagnostics_of(
-    location: &LocationDeclaration,
-    transition: &TransitionDeclaration,
+    location: &str,
+    transition: &BuiltTransition<'_>,
     value: bool,
     diagnostics: &mut Diagnostics,
 ) {
-    let Some(guard) = &transition.guard else { return };
-    let on_event_only = guard.text.trim() == "false" && !transition.input_events.is_empty();
-    if on_event_only {
+    let transition = transition.declaration;
+    let (guard, by_event) = match &transition.trigger {
+        TriggerDeclaration::When(Some(guard)) => (guard, false),
+        TriggerDeclaration::WhenOrOn(Some(guard), events) => (guard, !events.is_empty()),
+        _ => return,
+    };
+    let written = guard.expression.as_ref().and_then(|e| guard.text.get(e.range()));
+    if written.map(str::trim) == Some("false") && by_event {
         return;
     }
-    let (name, span) = (&transition.name.value, guard.map.whole());
+    let (name, span) = (&transition.name.value, guard.span);
     diagnostics.push(if value {
         let message = format!("the guard of `{name}` is always true");
         Diagnostic::warning(CODE, span, message)
-            .note(format!("location `{}` is left the instant it is entered", location.name.value))
+            .note(format!("location `{location}` is left the instant it is entered"))
             .help("say on which state, input or time the guard depends")
     } else {
         let message = format!("the guard of `{name}` is never true");

@@ -3,8 +3,8 @@
 //! the comparison is the wrong way round. So it is in Raibert's hopper as printed (thesis A.6): Compression is
 //! entered by `Position < L`, hence with `Speed < 0`, and left when `Speed < 0`; `Speed > 0` was meant.
 
-use crate::declarations::{Declarations, TransitionDeclaration};
-use crate::lower::{LoweredLocation, LoweredTransition};
+use crate::component::{BuiltLocation, BuiltTransition};
+use crate::declarations::{ComponentDeclaration, ExpressionText, TransitionDeclaration, TriggerDeclaration};
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Node, NodeId, Unary, VariableId};
 use sophy_syntax::ast::{ComparisonOperator, Expression};
@@ -14,8 +14,8 @@ pub(crate) const CODE: Code = Code("HS0402");
 
 /// Looks at every location that is entered by transitions only.
 pub(crate) fn find(
-    declarations: &Declarations,
-    locations: &[LoweredLocation],
+    declarations: &ComponentDeclaration,
+    locations: &[BuiltLocation<'_>],
     graph: &mut Graph,
     diagnostics: &mut Diagnostics,
 ) {
@@ -31,7 +31,7 @@ pub(crate) fn find(
         for (written, lowered) in
             declarations.locations[position].transitions.iter().zip(&location.transitions)
         {
-            if lowered.guard.and_then(|guard| half_space(graph, guard)) == Some(rate) {
+            if guard_of(written).is_some() && lowered.guard.and_then(|guard| half_space(graph, guard)) == Some(rate) {
                 diagnostics.push(diagnostic(written, entry, &declarations.locations[position].name.value));
             }
         }
@@ -49,8 +49,8 @@ struct HalfSpace {
 /// of these ways.
 fn rate_on_entry<'d>(
     position: usize,
-    declarations: &'d Declarations,
-    locations: &[LoweredLocation],
+    declarations: &'d ComponentDeclaration,
+    locations: &[BuiltLocation<'_>],
     graph: &mut Graph,
 ) -> Option<(HalfSpace, &'d TransitionDeclaration)> {
     let mut known: Option<(HalfSpace, &TransitionDeclaration)> = None;
@@ -59,7 +59,7 @@ fn rate_on_entry<'d>(
             if transition.destination != Some(position) {
                 continue;
             }
-            if !written.input_events.is_empty() {
+            if !is_guarded_only(written) {
                 return None;
             }
             let rate = rate_at_crossing(source, transition, graph)?;
@@ -76,15 +76,13 @@ fn rate_on_entry<'d>(
 /// On the surface e = 0 at which `e < 0` becomes true, ė is negative; reversed for `e > 0`. `None` if the guard is
 /// not a single inequality, ė is not known, or a reset changes what it depends on.
 fn rate_at_crossing(
-    source: &LoweredLocation,
-    transition: &LoweredTransition,
+    source: &BuiltLocation<'_>,
+    transition: &BuiltTransition<'_>,
     graph: &mut Graph,
 ) -> Option<HalfSpace> {
     let crossed = half_space(graph, transition.guard?)?;
-    let mut rates: HashMap<VariableId, Option<NodeId>> = HashMap::new();
-    for equation in &source.dynamics {
-        rates.insert(equation.variable, equation.right);
-    }
+    let rates: HashMap<VariableId, Option<NodeId>> =
+        source.defined.rates.iter().map(|(&id, definition)| (id, definition.right)).collect();
     let depends_on = graph.dependencies([crossed.quantity]);
     let all_known = depends_on.iter().all(|leaf| match leaf {
         Leaf::Variable(id) => rates.get(id).is_none_or(Option::is_some),
@@ -99,7 +97,7 @@ fn rate_at_crossing(
         _ => None,
     })?;
     let (quantity, flipped) = without_sign(graph, rate);
-    let reset = |leaf: &Leaf| transition.resets.iter().any(|reset| *leaf == Leaf::Variable(reset.variable));
+    let reset = |leaf: &Leaf| transition.actions.assignments.iter().any(|reset| *leaf == Leaf::Variable(reset.variable));
     if graph.dependencies([quantity]).iter().any(reset) || graph.as_number(quantity).is_some() {
         return None;
     }
@@ -148,7 +146,7 @@ fn diagnostic(
     entry: &TransitionDeclaration,
     location: &str,
 ) -> Diagnostic {
-    let place = |t: &TransitionDeclaration| t.guard.as_ref().map_or(t.name.span, |guard| guard.map.whole());
+    let place = |t: &TransitionDeclaration| guard_of(t).map_or(t.name.span, |guard| guard.span);
     let message =
         format!("`{}` is taken the instant location `{location}` is entered", transition.name.value);
     let mut warning = Diagnostic::warning(CODE, place(transition), message).label(
@@ -161,10 +159,27 @@ fn diagnostic(
     warning
 }
 
+/// The guard of a transition that nothing else triggers.
+fn guard_of(transition: &TransitionDeclaration) -> Option<&ExpressionText> {
+    match &transition.trigger {
+        TriggerDeclaration::When(guard) => guard.as_ref(),
+        TriggerDeclaration::WhenOrOn(guard, _) => guard.as_ref(),
+        _ => None,
+    }
+}
+
+fn is_guarded_only(transition: &TransitionDeclaration) -> bool {
+    match &transition.trigger {
+        TriggerDeclaration::When(_) => true,
+        TriggerDeclaration::WhenOrOn(_, events) => events.is_empty(),
+        _ => false,
+    }
+}
+
 /// The guard with the comparison turned round.
 fn reversed(transition: &TransitionDeclaration) -> Option<String> {
-    let guard = transition.guard.as_ref()?;
-    let Expression::Comparison(comparison) = guard.parse.expression()?.unparenthesised()? else {
+    let guard = guard_of(transition)?;
+    let Expression::Comparison(comparison) = guard.expression.clone()?.unparenthesised()? else {
         return None;
     };
     let operator = match comparison.operator()? {

@@ -1,124 +1,213 @@
-use super::expression::{Context, Lowering, Scope, Typed};
-use crate::checks::hs0107_declared_twice;
-use crate::declarations::{Declarations, FunctionDeclaration};
-use crate::findings::Findings;
-use crate::names::{Kind, Names};
-use sophy_diagnostics::Span;
-use sophy_ir::{Graph, Leaf, NodeId, VariableId};
-use std::collections::HashMap;
+//! The user's functions: a call is the body, lowered with the arguments in the place of the parameters.
 
-/// The user's functions, ready to be put in the place of their calls.
-#[derive(Default)]
-pub(crate) struct Functions<'a> {
-    declared: HashMap<&'a str, &'a FunctionDeclaration>,
-    templates: HashMap<&'a str, Template>,
+use super::expression::Reader;
+use super::lowering::{Expected, Lowering};
+use super::scope::{Place, Symbol, SymbolKind, SymbolValue};
+use super::typed::{Shape, Typed, Varies};
+use crate::checks::{hs0107_declared_twice, hs0202_wrong_number_of_arguments, hs0210_wrong_kind};
+use crate::declarations::{Dialect, FunctionDeclaration, TypeText};
+use crate::units::Measured;
+use sophy_diagnostics::{Diagnostic, Diagnostics, Severity, Span};
+use sophy_ir::{Leaf, NodeId, Quantity, VariableId};
+use sophy_syntax::ast::Expression;
+
+/// How to call a function.
+pub(super) fn usage_of(function: &FunctionDeclaration) -> String {
+    let parameters: Vec<&str> = function.parameters.iter().map(|(name, _)| name.value.as_str()).collect();
+    format!("{}({})", function.name.value, parameters.join(", "))
 }
 
-/// The body of a function in a graph of its own; parameters are leaves of placeholder variables.
-pub(crate) struct Template {
-    pub(crate) graph: Graph,
-    pub(crate) boolean: bool,
-    /// Whether it compares what depends on its parameters with `=` or `<>`.
-    pub(crate) compares_equal: bool,
-    /// Where the body stands.
-    pub(crate) span: Span,
-    root: NodeId,
-    parameters: usize,
-}
-
-/// Parameter `position`, counted down from the top so that it is no variable of the model.
-fn placeholder(position: usize) -> VariableId {
-    VariableId(u32::MAX - u32::try_from(position).unwrap_or(0))
-}
-
-impl Template {
-    /// The body in `graph`, arguments in the place of parameters.
-    pub(crate) fn expand(&self, graph: &mut Graph, arguments: &[Typed]) -> NodeId {
-        graph.import(&self.graph, self.root, &mut |graph, leaf| {
-            let parameter = (0..self.parameters).find(|&p| leaf == Leaf::Variable(placeholder(p)));
-            match parameter.and_then(|p| arguments.get(p)) {
-                Some(argument) => argument.node,
-                None => graph.leaf(leaf),
-            }
-        })
-    }
-}
-
-impl Functions<'_> {
-    pub(crate) fn parameter_count(&self, name: &str) -> Option<usize> {
-        self.declared.get(name).map(|function| function.parameters.len())
-    }
-
-    /// `None` if its body has mistakes.
-    pub(crate) fn template(&self, name: &str) -> Option<&Template> {
-        self.templates.get(name)
-    }
-
-    /// How to call it.
-    pub(crate) fn usage(&self, name: &str) -> String {
-        let parameters = self.declared.get(name).map_or(&[][..], |function| &function.parameters);
-        let parameters: Vec<&str> = parameters.iter().map(|parameter| parameter.value.as_str()).collect();
-        format!("{name}({})", parameters.join(", "))
-    }
-}
-
-impl<'a> Functions<'a> {
-    /// All declared functions, their bodies still to come.
-    pub(crate) fn declare(declarations: &'a Declarations, names: &Names<'a>) -> Self {
-        let mut functions = Functions::default();
-        for name in names.of_kind(Kind::Function) {
-            if let Some(symbol) = names.symbol(name) {
-                functions.declared.insert(name, &declarations.functions[symbol.position]);
-            }
-        }
-        functions
-    }
-
-    /// Lowers the body of a function; what it calls must be known.
-    pub(crate) fn define(
+impl<'a> Reader<'_, '_, 'a> {
+    pub(super) fn user_call(
         &mut self,
         function: &'a FunctionDeclaration,
-        names: &Names<'a>,
-        constants: &HashMap<VariableId, f64>,
-        findings: &mut Findings,
-    ) {
-        if let Some(template) = lower_function(function, names, constants, self, findings) {
-            self.templates.entry(function.name.value.as_str()).or_insert(template);
+        result: Option<(Shape, Quantity)>,
+        span: Span,
+        written: &[Expression],
+    ) -> Option<Typed> {
+        let name = function.name.value.as_str();
+        let arguments: Vec<Option<Typed>> =
+            written.iter().map(|argument| self.expression(argument)).collect();
+        if arguments.len() != function.parameters.len() {
+            let (usage, declared) = (usage_of(function), Some(function.name.span));
+            let given = arguments.len();
+            let error = hs0202_wrong_number_of_arguments::diagnostic(span, name, given, &usage, declared);
+            self.report(error);
+            return None;
         }
+        let arguments: Vec<Typed> = arguments.into_iter().collect::<Option<_>>()?;
+        let mut fitting = Vec::with_capacity(arguments.len());
+        for ((argument, written), (parameter, kind)) in
+            arguments.into_iter().zip(written).zip(&function.parameters)
+        {
+            let what = format!("parameter `{}` of `{name}`", parameter.value);
+            let expected = self.lowering.expected(kind.as_ref(), what, parameter.span)?;
+            let at = self.span(written.range());
+            let well_formed = self.text.well_formed;
+            fitting.push(self.lowering.fit(argument, at, &expected).filter(|_| well_formed));
+        }
+        let arguments: Vec<Typed> = fitting.into_iter().collect::<Option<_>>()?;
+        if !self.has_room(span, Some(name)) {
+            return None;
+        }
+        if let (Some((shape, quantity)), true) = (result, self.lowering.symbols.unapplied) {
+            // Its body was checked; to go through it at every call would double the work with every level.
+            return Some(self.lowering.placeholder(shape, quantity));
+        }
+        if self.lowering.symbols.in_function() {
+            return self.lowering.applied(function, arguments, self.untaken);
+        }
+        // What is wrong with these arguments only is reported at the call.
+        let findings = &mut *self.lowering.findings;
+        let before = std::mem::take(&mut findings.diagnostics);
+        let (unknown, logarithms) = (findings.unknown_names.len(), findings.logarithms.len());
+        let value = self.lowering.applied(function, arguments, self.untaken);
+        let findings = &mut *self.lowering.findings;
+        let inside = std::mem::replace(&mut findings.diagnostics, before);
+        findings.unknown_names.truncate(unknown);
+        findings.logarithms.truncate(logarithms);
+        if let Some(error) = first_error(&inside) {
+            self.report(at_call(error, span, name));
+        }
+        value
     }
 }
 
-fn lower_function(
-    function: &FunctionDeclaration,
-    names: &Names<'_>,
-    constants: &HashMap<VariableId, f64>,
-    functions: &Functions<'_>,
-    findings: &mut Findings,
-) -> Option<Template> {
-    let mut graph = Graph::default();
-    let mut parameters: Vec<(String, Typed)> = Vec::new();
-    for (position, name) in function.parameters.iter().enumerate() {
-        let first = function.parameters[..position].iter().find(|earlier| earlier.value == name.value);
-        if let Some(first) = first {
-            findings.report(hs0107_declared_twice::parameter(&name.value, first.span, name.span));
-        }
-        let node = graph.leaf(Leaf::Variable(placeholder(position)));
-        parameters.push((name.value.clone(), Typed { node, boolean: false, varies: true }));
+fn first_error(diagnostics: &Diagnostics) -> Option<&Diagnostic> {
+    diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error)
+}
+
+/// A mistake within a function that its arguments are the cause of.
+fn at_call(inside: &Diagnostic, span: Span, name: &str) -> Diagnostic {
+    if inside.span() == Some(span) {
+        return inside.clone();
     }
-    let mut context = Context { names, functions, constants, findings };
-    let text = &function.body;
-    let scope = Scope::Function { parameters: &parameters };
-    let mut lowering =
-        Lowering { context: &mut context, graph: &mut graph, scope, text, compares_equal: false };
-    let value = lowering.expression(text.parse.expression()?);
-    let compares_equal = lowering.compares_equal;
-    let value = value.filter(|_| text.parse.errors().is_empty())?;
-    Some(Template {
-        root: value.node,
-        boolean: value.boolean,
-        compares_equal,
-        span: text.map.whole(),
-        parameters: parameters.len(),
-        graph,
-    })
+    let message = format!("in this call of `{name}`: {}", inside.message);
+    let mut error = Diagnostic::error(inside.code, span, message);
+    for label in &inside.labels {
+        let said = if label.message.is_empty() { "here" } else { label.message.as_str() };
+        error = error.label(label.span, said);
+    }
+    error.notes.clone_from(&inside.notes);
+    error.helps.clone_from(&inside.helps);
+    error
+}
+
+impl<'a> Lowering<'_, 'a> {
+    /// The body of a function, parameters bound to arguments.
+    fn applied(
+        &mut self,
+        function: &'a FunctionDeclaration,
+        arguments: Vec<Typed>,
+        untaken: bool,
+    ) -> Option<Typed> {
+        let body = function.body.expression.as_ref()?;
+        let mark = self.symbols.enter_function();
+        for ((parameter, _), argument) in function.parameters.iter().zip(arguments) {
+            self.symbols.bind(&parameter.value, SymbolKind::Argument, parameter.span, argument);
+        }
+        let value = Reader { lowering: self, text: &function.body, untaken }.expression(body);
+        let value = match (value, &function.result) {
+            (Some(value), Some(kind)) => {
+                let what = format!("the value of `{}`", function.name.value);
+                let expected = self.expected(Some(kind), what, function.name.span);
+                expected.and_then(|expected| self.fit(value, function.body.span, &expected))
+            }
+            (value, _) => value,
+        };
+        self.symbols.leave(mark);
+        value.filter(|_| function.body.well_formed)
+    }
+
+    /// Checks the body of a function by itself, with arguments of which only the declared types are known.
+    /// Returns what it stands for: nothing if it has mistakes.
+    pub(super) fn check_function(&mut self, function: &'a FunctionDeclaration) -> SymbolValue<'a> {
+        let before = self.findings.error_count();
+        let mut arguments = Vec::new();
+        let mut value = None;
+        for (position, (parameter, kind)) in function.parameters.iter().enumerate() {
+            let earlier = function.parameters.iter().take(position);
+            if let Some((first, _)) = earlier.into_iter().find(|(name, _)| name.value == parameter.value) {
+                let again = hs0107_declared_twice::parameter(&parameter.value, first.span, parameter.span);
+                self.report(again);
+            }
+            let expected = self.expected(kind.as_ref(), String::new(), parameter.span);
+            arguments.extend(expected.map(|expected| self.placeholder(expected.shape, expected.quantity)));
+        }
+        if arguments.len() == function.parameters.len() {
+            let unapplied = std::mem::replace(&mut self.symbols.unapplied, true);
+            // Within a function nothing is reported at a call.
+            let mark = self.symbols.enter_function();
+            value = self.applied(function, arguments, false);
+            self.symbols.leave(mark);
+            self.symbols.unapplied = unapplied;
+        }
+        match value {
+            _ if self.findings.error_count() > before || !function.body.well_formed => SymbolValue::Broken,
+            Some(value) => SymbolValue::TypedFunction(function, value.shape, value.quantity),
+            None => SymbolValue::Function(function),
+        }
+    }
+
+    /// Checks the functions of a SOPHY XML file, which use the constants of its component. Those with mistakes are
+    /// not known any more.
+    pub(crate) fn check_functions(&mut self) {
+        if self.dialect != Dialect::Xml {
+            return; // done once for all components
+        }
+        let place = std::mem::replace(&mut self.place, Place::FUNCTION);
+        for function in self.symbols.declared_functions() {
+            let value = self.check_function(function);
+            let symbol = Symbol { kind: SymbolKind::Function, span: function.name.span, value };
+            if !self.symbols.is_coming(&function.name.value) {
+                self.symbols.declare(&function.name.value, symbol);
+            }
+        }
+        self.place = place;
+    }
+
+    /// Stands for any value; its variables count down from the top, where the class has none.
+    fn placeholder(&mut self, shape: Shape, quantity: Quantity) -> Typed {
+        let mut nodes: Vec<NodeId> = Vec::with_capacity(shape.len());
+        for _ in 0..shape.len() {
+            self.symbols.placeholders += 1;
+            let id = VariableId(u32::MAX - self.symbols.placeholders);
+            nodes.push(self.graph.leaf(Leaf::Variable(id)));
+        }
+        if quantity == Quantity::Boolean {
+            nodes = self.truths(&nodes);
+        }
+        Typed {
+            elements: nodes.into(),
+            shape,
+            quantity,
+            measured: Measured::Unchecked,
+            varies: Varies::Parameters,
+        }
+    }
+
+    /// What a type says; without one it is a single real number.
+    fn expected(&mut self, kind: Option<&TypeText>, what: String, span: Span) -> Option<Expected> {
+        let (shape, quantity) = match kind {
+            Some(kind) => self.declared_type(kind)?,
+            None => (Shape::Scalar, Quantity::Real),
+        };
+        let measured = Measured::Unchecked;
+        Some(Expected { shape, quantity, measured, choices: Vec::new(), what, span: Some(span) })
+    }
+
+    /// The shape and kind of values that a type names; events have none.
+    pub(crate) fn declared_type(&mut self, kind: &TypeText) -> Option<(Shape, Quantity)> {
+        let quantity = match kind.name.value.as_str() {
+            "real" | "signal" => Quantity::Real,
+            "integer" => Quantity::Integer,
+            "boolean" => Quantity::Boolean,
+            "string" => Quantity::Text,
+            other => {
+                self.report(hs0210_wrong_kind::no_type(kind.name.span, other));
+                return None;
+            }
+        };
+        Some((self.declared_shape(&kind.shape)?, quantity))
+    }
 }

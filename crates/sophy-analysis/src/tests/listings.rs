@@ -77,13 +77,13 @@ fn the_corrected_hopper_is_a_model() {
         .replace("      der Time = 0\n      out Position = Position\n      out Speed = Speed\n      transition Ground Cl",
                  "      der Time = 0\n      der ETA2 = 0\n      out Position = Position\n      out Speed = Speed\n      transition Ground Cl");
     let model = check_model(&text, "");
-    assert_eq!(model.name, "RaibertsHopper");
-    let names: Vec<&str> = model.variables.iter().map(|variable| variable.name.as_str()).collect();
+    assert_eq!(model.name(), "RaibertsHopper");
+    let names: Vec<&str> = model.root().variables.iter().map(|variable| variable.name.as_str()).collect();
     let states = ["Position", "Speed", "Time", "ETA2"];
     let outputs = ["Position", "Speed"];
     let constants = ["G", "Tp", "L", "GAMMA", "TAU", "ETA"];
     assert_eq!(names, [&constants[..], &states[..], &outputs[..]].concat());
-    let component = &model.components[0];
+    let component = crate::testing::automaton(&model);
     assert_eq!(component.initial_location, 0);
     let destinations: Vec<usize> = component
         .locations
@@ -93,7 +93,7 @@ fn the_corrected_hopper_is_a_model() {
         .collect();
     assert_eq!(destinations, [1, 2, 3, 0]);
     assert!(matches!(component.locations[2].transitions[0].trigger, Trigger::When(_)));
-    assert_eq!(component.locations[2].transitions[0].resets.len(), 1);
+    assert_eq!(component.locations[2].transitions[0].actions.assignments.len(), 1);
 }
 
 #[test]
@@ -169,9 +169,10 @@ fn a_transition_with_guard_and_events_becomes_two() {
            der x = 0",
         "",
     );
-    let component = &model.components[0];
-    assert_eq!(component.input_events, ["a", "b", "c"]);
-    assert_eq!(component.output_events, ["done"]);
+    let component = crate::testing::automaton(&model);
+    let labels = |ports: &[sophy_ir::EventPort]| -> Vec<String> { ports.iter().map(|p| p.name.clone()).collect() };
+    assert_eq!(labels(&model.root().input_events), ["a", "b", "c"]);
+    assert_eq!(labels(&model.root().output_events), ["done"]);
     let shown: Vec<String> = component.locations[0]
         .transitions
         .iter()
@@ -180,6 +181,7 @@ fn a_transition_with_guard_and_events_becomes_two() {
             Trigger::On { events, guard } => {
                 format!("{} on {} {}", t.name, events.join(","), guard.is_some())
             }
+            other => panic!("{other:?} in SOPHY XML"),
         })
         .collect();
     assert_eq!(shown, ["both when", "both on b,a false", "event on c false"]);

@@ -24,25 +24,31 @@ fn value(expression: &str, x: f64, y: f64) -> f64 {
            out positive = x > 0
            der z = {expression}"
     );
-    let (_, declarations) = crate::testing::read(&text);
-    let (model, diagnostics) = crate::analyse(&declarations);
+    let (sources, declarations) = crate::testing::read(&text);
+    let (model, diagnostics) = crate::testing::analysed(&sources, &declarations);
     let model = model.unwrap_or_else(|| panic!("{expression}: {diagnostics:?}"));
     evaluate_equation(&model, 2, x, y)
 }
 
 fn evaluate_equation(model: &Model, position: usize, x: f64, y: f64) -> f64 {
-    let equation = &model.components[0].locations[0].dynamics[position];
-    evaluate(&model.graph, equation.right, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y))).real()
+    let equation = &crate::testing::automaton(model).locations[0].dynamics[position];
+    evaluate(&model.root().graph, equation.right, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y))).real()
 }
 
 fn leaf_value(model: &Model, leaf: Leaf, x: f64, y: f64) -> f64 {
     match leaf {
         Leaf::Time => 7.0,
-        Leaf::Variable(id) => match (model.variable(id).name.as_str(), model.variable(id).kind) {
+        Leaf::Variable(id) => match (model.root().variable(id).name.as_str(), model.root().variable(id).kind) {
             ("x", _) => x,
             ("y", _) => y,
-            (_, VariableKind::Parameter(value)) => {
-                evaluate(&model.graph, value, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y))).real()
+            (_, VariableKind::Parameter { value, .. }) => {
+                evaluate(&model.root().graph, value, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y))).real()
+            }
+            (_, VariableKind::Output) => {
+                let location = &crate::testing::automaton(model).locations[0];
+                let map = location.values.iter().find(|equation| equation.variable == id).expect("a map");
+                evaluate(&model.root().graph, map.right, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y)))
+                    .real()
             }
             (name, kind) => panic!("{name} {kind:?} has no value"),
         },
@@ -141,17 +147,17 @@ fn constants_are_parameters_over_parameters() {
          location A
            der x = c",
     );
-    let VariableKind::State(Some(initial)) = model.variables[3].kind else { panic!("x starts somewhere") };
-    let start = evaluate(&model.graph, initial, &mut |leaf| Value::Real(leaf_value(&model, leaf, 0.0, 0.0)));
+    let VariableKind::State(Some(initial)) = model.root().variables[3].kind else { panic!("x starts somewhere") };
+    let start = evaluate(&model.root().graph, initial, &mut |leaf| Value::Real(leaf_value(&model, leaf, 0.0, 0.0)));
     assert_eq!(start, Value::Real(10.0));
-    let right = model.components[0].locations[0].dynamics[0].right;
-    let leaves: Vec<Leaf> = model.graph.dependencies([right]).into_iter().collect();
+    let right = crate::testing::automaton(&model).locations[0].dynamics[0].right;
+    let leaves: Vec<Leaf> = model.root().graph.dependencies([right]).into_iter().collect();
     assert_eq!(
         leaves,
-        [Leaf::Variable(VariableId(0))],
+        [Leaf::Variable(VariableId(2))],
         "a constant is not inlined: an experiment may set it"
     );
-    assert_eq!(model.variables[2].unit.as_deref(), Some("kg"));
+    assert_eq!(model.root().variables[0].unit.as_deref(), Some("kg"));
 }
 
 /// An arithmetic expression, with its value in plain Rust.

@@ -61,15 +61,14 @@ fn line() -> impl Strategy<Value = String> {
 proptest! {
     #[test]
     fn any_declarations_are_analysed(lines in prop::collection::vec(line(), 0..12)) {
-        let (_, declarations) = read(&lines.join("\n"));
-        let (model, diagnostics) = crate::analyse(&declarations);
+        let (sources, declarations) = read(&lines.join("\n"));
+        let (model, diagnostics) = crate::testing::analysed(&sources, &declarations);
         prop_assert!(model.is_none() || !diagnostics.has_errors());
         if let Some(model) = model {
-            for component in &model.components {
-                prop_assert!(component.initial_location < component.locations.len());
-                for transition in component.locations.iter().flat_map(|location| &location.transitions) {
-                    prop_assert!(transition.destination < component.locations.len());
-                }
+            let component = crate::testing::automaton(&model);
+            prop_assert!(component.initial_location < component.locations.len());
+            for transition in component.locations.iter().flat_map(|location| &location.transitions) {
+                prop_assert!(transition.destination < component.locations.len());
             }
         }
     }

@@ -3,23 +3,22 @@ use crate::exit::Exit;
 use crate::numbers::plural;
 use crate::terminal::Terminal;
 use serde_json::json;
-use sophy::{Diagnostics, FileWorld, Severity};
+use sophy::{Diagnostics, FileWorld, Root, Severity};
 use std::path::Path;
 
 /// Shows every mistake of every file.
 pub(crate) fn check(arguments: &Check, terminal: &Terminal) -> Exit {
-    let exits: Vec<Exit> = arguments.files.iter().map(|file| check_file(file, terminal)).collect();
+    // A file of several components is a library, and each is checked.
+    let root = arguments.system.as_deref().map_or(Root::IfClear, Root::Named);
+    let exits: Vec<Exit> = arguments.files.iter().map(|file| check_file(file, root, terminal)).collect();
     let worst = [Exit::Mistakes, Exit::FileFailed].into_iter().find(|exit| exits.contains(exit));
     worst.unwrap_or(Exit::Done)
 }
 
-fn check_file(file: &Path, terminal: &Terminal) -> Exit {
-    let mut loaded = sophy::load(&FileWorld, file);
-    // A model alone lacks its inputs; an experiment is checked together with its model.
-    if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        let found = sophy::check(&loaded);
-        loaded.diagnostics.extend(found);
-    }
+fn check_file(file: &Path, root: Root<'_>, terminal: &Terminal) -> Exit {
+    let mut loaded = sophy::load_as(&FileWorld, file, root);
+    let found = sophy::check(&loaded);
+    loaded.diagnostics.extend(found);
     terminal.diagnostics(&loaded.messages(), &loaded.sources);
     let (errors, warnings) = counts(&loaded.diagnostics);
     terminal.remark(

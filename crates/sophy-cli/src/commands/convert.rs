@@ -1,18 +1,23 @@
 use crate::arguments::Convert;
 use crate::exit::Exit;
+use crate::replace::{Existing, write};
 use crate::terminal::Terminal;
 use serde_json::json;
-use sophy::FileWorld;
+use sophy::{Conversion, FileWorld, Root};
 use std::path::Path;
 
-const KNOWN: &str = "models go from .xml to .xml; results from .csv, .arrow, .parquet or .journal to .csv, .arrow or .parquet";
+const KNOWN: &str = "models go from .hsml to .xml and from .xml to .hsml or .xml; results from .csv, .arrow, .parquet or .journal to .csv, .arrow or .parquet";
 
-/// Writes a model or a result in another form.
+/// Writes a model in the other language, or a result in another format.
 pub(crate) fn convert(arguments: &Convert, terminal: &Terminal) -> Exit {
-    let Convert { input, output } = arguments;
-    let exit = match (is_model(input), is_model(output)) {
-        (true, true) => convert_model(input, output, terminal),
-        (false, false) => convert_result(input, output, terminal),
+    let Convert { input, output, .. } = arguments;
+    let exit = match (language(input), language(output)) {
+        (Some(Language::Hsml), Some(Language::Hsml)) => {
+            terminal.error("this is HSML already", Some("`sophy fmt` lays it out"));
+            Exit::WrongUse
+        }
+        (Some(_), Some(language)) => convert_model(arguments, language, terminal),
+        (None, None) => convert_result(input, output, terminal),
         _ => {
             let message = format!("cannot convert {} to {}", input.display(), output.display());
             terminal.error(&message, Some(KNOWN));
@@ -29,15 +34,35 @@ pub(crate) fn convert(arguments: &Convert, terminal: &Terminal) -> Exit {
     exit
 }
 
-fn convert_model(input: &Path, output: &Path, terminal: &Terminal) -> Exit {
-    let loaded = sophy::load_model(&FileWorld, input);
-    terminal.diagnostics(&loaded.messages(), &loaded.sources);
-    if loaded.unreadable {
-        return Exit::FileFailed;
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Language {
+    Hsml,
+    Xml,
+}
+
+fn language(path: &Path) -> Option<Language> {
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "hsml" => Some(Language::Hsml),
+        "xml" => Some(Language::Xml),
+        _ => None,
     }
-    // A model with mistakes is not written: what was not understood would be lost.
-    let (Some(declarations), Some(_)) = (&loaded.declarations, &loaded.model) else { return Exit::Mistakes };
-    match std::fs::write(output, sophy::write_xml(declarations)) {
+}
+
+/// A model with mistakes is not written, nor one that the other language cannot say: something would be lost.
+fn convert_model(arguments: &Convert, language: Language, terminal: &Terminal) -> Exit {
+    let Convert { input, output, system } = arguments;
+    // Several components can be HSML; which one becomes SOPHY XML has to be clear.
+    let mut loaded = sophy::load_as(&FileWorld, input, system.as_deref().map_or(Root::IfClear, Root::Named));
+    let Conversion { text, diagnostics } = match language {
+        Language::Hsml => sophy::to_hsml(&loaded),
+        Language::Xml => sophy::to_xml(&loaded),
+    };
+    loaded.diagnostics.extend(diagnostics);
+    terminal.diagnostics(&loaded.messages(), &loaded.sources);
+    let Some(text) = text else {
+        return if loaded.unreadable { Exit::FileFailed } else { Exit::Mistakes };
+    };
+    match write(output, text.as_bytes(), Existing::Replace) {
         Ok(()) => Exit::Done,
         Err(error) => {
             terminal.error(&format!("cannot write {}: {error}", output.display()), None);
@@ -55,8 +80,4 @@ fn convert_result(input: &Path, output: &Path, terminal: &Terminal) -> Exit {
             exit
         }
     }
-}
-
-fn is_model(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
 }

@@ -1,5 +1,6 @@
 use super::check::{counts, verdict};
 use super::flags::apply;
+use super::root;
 use crate::arguments::{Run, Stage};
 use crate::command_line::CommandLine;
 use crate::exit::Exit;
@@ -18,7 +19,7 @@ pub(crate) fn run(arguments: &Run, terminal: &Terminal) -> Exit {
         return Exit::WrongUse;
     }
     // File to model and experiment.
-    let mut loaded = sophy::load(&FileWorld, &arguments.file);
+    let mut loaded = sophy::load_as(&FileWorld, &arguments.file, root(arguments.system.as_deref()));
     // Flags win over the file.
     let line = CommandLine::of_process(&mut loaded.sources);
     let mistakes = apply(arguments, &line, &mut loaded.setup);
@@ -84,7 +85,7 @@ fn summary(model: &Model, start: f64, finished: &Finished) -> String {
         .collect();
     let place = if places.is_empty() { String::new() } else { format!(", in {}", places.join(", ")) };
     let transitions = plural(report.statistics.hybrid.transitions, "transition");
-    let mut text = format!("{}: {how} t = {} s after {transitions}{place}\n", model.name, report.time);
+    let mut text = format!("{}: {how} t = {} s after {transitions}{place}\n", model.name(), report.time);
     text.push_str(&format!(
         "  {} in {:.2?}, {} × real time",
         plural(report.rows, "row"),
@@ -133,7 +134,7 @@ fn answer(model: &Model, start: f64, finished: &Finished, backend: &str) -> Valu
         .collect();
     json!({
         "kind": "summary",
-        "model": model.name,
+        "model": model.name(),
         "outcome": match report.outcome {
             Outcome::Reached => "reached",
             Outcome::Interrupted => "interrupted",

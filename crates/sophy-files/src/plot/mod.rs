@@ -8,11 +8,11 @@ mod content;
 mod curve;
 mod html;
 mod options;
-mod palette;
+pub(crate) mod palette;
 mod phase_figure;
 mod png;
-mod svg;
-mod text;
+pub(crate) mod svg;
+pub(crate) mod text;
 mod time_figure;
 
 use std::path::Path;
@@ -23,6 +23,7 @@ use crate::FileError;
 use crate::path::{extension, write_whole};
 use content::Content;
 pub use options::PlotOptions;
+pub(crate) use png::png;
 
 /// Draws a result; the extension tells the format: `.svg`, `.png`, `.html`.
 ///
@@ -43,7 +44,7 @@ pub fn plot(
 ) -> Result<(), FileError> {
     let picture = match extension(path).as_str() {
         "svg" => figure(table, events, options)?.into_bytes(),
-        "png" => png::png(path, &figure(table, events, options)?)?,
+        "png" => png(path, &figure(table, events, options)?)?,
         "html" => html::page(table, events, options)?.into_bytes(),
         _ => {
             return Err(FileError::UnknownExtension { path: path.to_path_buf(), known: ".svg, .png, .html" });

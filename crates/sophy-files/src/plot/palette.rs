@@ -26,7 +26,7 @@ pub(super) fn curve(n: usize) -> (&'static str, &'static str) {
 }
 
 /// Full colour of a location, for lines.
-pub(super) fn location(n: u32) -> String {
+pub(crate) fn location(n: u32) -> String {
     mixed(n, 1.0)
 }
 
@@ -36,7 +36,7 @@ pub(super) fn location_band(n: u32) -> String {
 }
 
 /// The location's colour as a hint behind curves.
-pub(super) fn location_shade(n: u32) -> String {
+pub(crate) fn location_shade(n: u32) -> String {
     mixed(n, 0.13)
 }
 

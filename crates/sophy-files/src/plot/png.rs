@@ -11,7 +11,7 @@ const FONT: &[u8] = include_bytes!("../../fonts/Roboto-Regular-subset.ttf");
 const SCALE: f32 = 2.0;
 
 /// The same picture in pixels, its text set in the embedded font.
-pub(super) fn png(path: &Path, svg: &str) -> Result<Vec<u8>, FileError> {
+pub(crate) fn png(path: &Path, svg: &str) -> Result<Vec<u8>, FileError> {
     let tree = tree(svg).map_err(FileError::format(path, "PNG"))?;
     let size = tree.size().to_int_size().scale_by(SCALE);
     let pixmap = size.and_then(|size| Pixmap::new(size.width(), size.height()));

@@ -1,7 +1,7 @@
 //! Words on pictures: their width, their escapes, units as people write them.
 
 /// The face of all text; the embedded font in PNG, the first one at hand elsewhere.
-pub(super) const FAMILY: &str = "Roboto, Helvetica, Arial, sans-serif";
+pub(crate) const FAMILY: &str = "Roboto, Helvetica, Arial, sans-serif";
 
 /// Advance widths of U+0020 … U+007E in the embedded font, in 1/2048 of the font size.
 const ADVANCES: [u16; 95] = [
@@ -14,7 +14,7 @@ const ADVANCES: [u16; 95] = [
 ];
 
 /// Width of `text` at `size` pixels, without kerning.
-pub(super) fn width(text: &str, size: f64) -> f64 {
+pub(crate) fn width(text: &str, size: f64) -> f64 {
     let advance = |c: char| {
         let known = (c as usize).checked_sub(0x20).and_then(|i| ADVANCES.get(i));
         f64::from(known.copied().unwrap_or(1150))
@@ -23,7 +23,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 }
 
 /// `text`, with its middle left out if it is wider than `room`.
-pub(super) fn fitted(text: &str, size: f64, room: f64) -> String {
+pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
     if width(text, size) <= room {
         return text.to_owned();
     }
@@ -60,7 +60,7 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// A unit in typeset form: `m/s^2` is m/s², `N*m` is N·m.
-pub(super) fn unit(unit: &str) -> String {
+pub(crate) fn unit(unit: &str) -> String {
     let mut out = String::new();
     let mut raised = false;
     for c in unit.chars() {

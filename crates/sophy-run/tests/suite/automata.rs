@@ -264,7 +264,7 @@ proptest! {
         let stop = 6;
         let expected = Slow::simulate(&plans, stop * SECOND);
         prop_assume!(expected.as_ref().is_some_and(|log| log.len() > 2));
-        let result = run(&build(&plans).model, &by(method, to(stop as f64, 0.1)));
+        let result = run(&build(&plans).model(), &by(method, to(stop as f64, 0.1)));
         let found: Vec<Happening> = result
             .events
             .iter()
@@ -314,7 +314,7 @@ fn signals_that_depend_on_a_location_are_those_of_the_flat_system() {
         b.when(low, "high", above, high, &[]);
         b.when(high, "low", below, low, &[(x, ru)]);
         b.connect(y, u);
-        let composed = run(&b.model, &by(method, to(9.0, 1e-5)));
+        let composed = run(&b.model(), &by(method, to(9.0, 1e-5)));
 
         let mut b = Build::default();
         b.component("");
@@ -340,7 +340,7 @@ fn signals_that_depend_on_a_location_are_those_of_the_flat_system() {
                 b.when(places[k], "low", below, places[k - 1], &[(x, y)]);
             }
         }
-        let flat = run(&b.model, &by(method, to(9.0, 1e-5)));
+        let flat = run(&b.model(), &by(method, to(9.0, 1e-5)));
 
         let events = |r: &crate::support::Result| -> Vec<(f64, String)> {
             r.events.iter().map(|e| (e.time, e.transition.clone())).collect()
@@ -408,7 +408,7 @@ fn transitions_of_one_micro_step_read_the_values_before() {
         }
         b.connect(outputs[0], parts[1]);
         b.connect(outputs[1], parts[0]);
-        let result = run(&b.model, &by(method, to(3.0, 0.1)));
+        let result = run(&b.model(), &by(method, to(3.0, 0.1)));
         let events: Vec<_> = result.events.iter().map(|e| (e.time, e.step, e.component.as_str())).collect();
         assert_eq!(events, [(2.0, 0, "left"), (2.0, 0, "right")]);
         assert_eq!(result.trajectory.value(0, 2.0, Side::Left), 2.0);

@@ -61,7 +61,7 @@ fn rates_of_time_alone_are_followed() {
         b.rate(here, power, fifth);
         let mut errors = Vec::new();
         for quantum in [1e-3, 3e-4, 1e-4, 3e-5, 1e-5] {
-            let result = run(&b.model, &by(method, to(1.5, quantum)));
+            let result = run(&b.model(), &by(method, to(1.5, quantum)));
             let mut worst = 0.0f64;
             for k in 0..=150 {
                 let t = f64::from(k) / 100.0;

@@ -46,7 +46,7 @@ fn guards_that_are_not_affine_are_located_by_enclosures() {
         b.when(outside, "in", high, inside, &[]);
         b.when(inside, "out", low, outside, &[]);
         let quantum = if method == Method::Qss1 { 1e-4 } else { 1e-6 };
-        let result = run(&b.model, &by(method, to(7.0, quantum)));
+        let result = run(&b.model(), &by(method, to(7.0, quantum)));
         // ½ sin 2t = ¼ at 2t = π/6, 5π/6 and again after a half turn.
         let pi = std::f64::consts::PI;
         let exact: Vec<f64> =
@@ -74,14 +74,14 @@ fn kinks_in_rates_are_events() {
         let rate = b.unary(function, shifted);
         b.rate(here, state, rate);
     }
-    let result = run(&b.model, &to(3.5, 1e-3));
+    let result = run(&b.model(), &to(3.5, 1e-3));
     let last = |name: &str| *result.table.real(name).unwrap().last().unwrap();
     // ∫|t−1| = ½ + 2.5²/2; ∫⌊t−1⌋ = −1 + 0 + 1 + ½·2; ∫sign(t−1) = −1 + 2.5.
     assert!((last("abs") - 3.625).abs() < 1e-12, "{}", last("abs"));
     assert!((last("floor") - 1.0).abs() < 1e-12, "{}", last("floor"));
     assert!((last("sign") - 1.5).abs() < 1e-12, "{}", last("sign"));
     assert!(result.events.is_empty(), "kinks are not transitions");
-    let all = run(&b.model, &Experiment { all_events: true, ..to(3.5, 1e-3) });
+    let all = run(&b.model(), &Experiment { all_events: true, ..to(3.5, 1e-3) });
     let kinks: Vec<(f64, &str)> = all.events.iter().map(|e| (e.time, e.transition.as_str())).collect();
     assert!(kinks.contains(&(1.0, "clock - 1.0 < 0")), "{kinks:?}");
     assert!(kinks.iter().any(|(time, _)| *time == 2.0), "floor steps at 2: {kinks:?}");

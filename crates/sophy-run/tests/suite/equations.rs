@@ -140,7 +140,7 @@ fn case(steps: &[Step], point: Point, tame: bool) -> Case {
     let z = b.output("z");
     let here = b.location("all");
     let leaves = [b.read(x1), b.read(x2), b.read(u), b.time(), p, q];
-    let names = leaves.map(|node| match b.model.graph.node(node) {
+    let names = leaves.map(|node| match b.graph().node(node) {
         Node::Leaf(leaf) => leaf,
         other => panic!("{other:?}"),
     });
@@ -153,7 +153,7 @@ fn case(steps: &[Step], point: Point, tame: bool) -> Case {
     b.rate(here, x1, root);
     let opposite = b.sub(root, leaves[1]);
     b.rate(here, x2, opposite);
-    lowered(&b.model, point)
+    lowered(&b.model(), point)
 }
 
 fn lowered(model: &Model, point: Point) -> Case {

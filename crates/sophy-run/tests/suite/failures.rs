@@ -26,7 +26,7 @@ fn a_livelock_is_reported_with_its_round() {
     let over = b.greater(read, two);
     b.when(low, "up", over, high, &[]);
     b.when(high, "down", over, low, &[]);
-    let failure = failure(try_run(&b.model, &to(5.0, 1e-3)));
+    let failure = failure(try_run(&b.model(), &to(5.0, 1e-3)));
     assert_eq!(failure.code.0, "SR0007");
     assert!((failure.time - 2.0).abs() < 1e-12);
     let round = failure.notes.join("\n");
@@ -50,7 +50,7 @@ fn zeno_is_reported_with_its_limit() {
     let hits = b.graph().and(below, down);
     let back = b.mul(e, rv);
     b.when(here, "bounce", hits, here, &[(v, back)]);
-    let result = try_run(&b.model, &to(10.0, 1e-3)).expect("Zeno is an outcome");
+    let result = try_run(&b.model(), &to(10.0, 1e-3)).expect("Zeno is an outcome");
     let Outcome::Zeno(accumulation) = &result.report.outcome else { panic!("{:?}", result.report.outcome) };
     let exact = (2.0f64 / 9.81).sqrt() * 1.8 / 0.2;
     assert!((accumulation.limit - exact).abs() < 1e-9, "{} for {exact}", accumulation.limit);
@@ -71,7 +71,7 @@ fn a_rate_that_is_not_a_number_names_equation_and_values() {
     let two = b.number(2.0);
     let rate = b.sub(rate, two);
     b.rate(here, x, rate);
-    let failure = failure(try_run(&b.model, &to(50.0, 1e-3)));
+    let failure = failure(try_run(&b.model(), &to(50.0, 1e-3)));
     assert_eq!(failure.code.0, "SR0001");
     let text = format!("{failure}\n{}", failure.notes.join("\n"));
     assert!(text.contains("the derivative of `x` is NaN"), "{text}");
@@ -90,7 +90,7 @@ fn sliding_is_recognised_and_said() {
     let side = b.unary(Unary::Sign, read);
     let rate = b.unary(Unary::Negate, side);
     b.rate(here, x, rate);
-    let failure = failure(try_run(&b.model, &to(5.0, 1e-3)));
+    let failure = failure(try_run(&b.model(), &to(5.0, 1e-3)));
     assert_eq!(failure.code.0, "SR0006");
     assert!((failure.time - 1.0).abs() < 1e-9);
 }
@@ -127,6 +127,6 @@ fn a_run_of_no_length_ends_at_once() {
     let half = b.number(0.5);
     let over = b.greater(sine, half);
     b.when(here, "over", over, there, &[]);
-    let result = try_run(&b.model, &to(0.0, 1e-3)).expect("runs");
+    let result = try_run(&b.model(), &to(0.0, 1e-3)).expect("runs");
     assert_eq!((result.events.len(), result.report.time), (1, 0.0));
 }

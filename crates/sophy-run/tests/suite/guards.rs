@@ -3,7 +3,7 @@
 
 use crate::support::{by, run, to};
 use proptest::prelude::*;
-use sophy_ir::{Binary, Comparison, Leaf, Model, NodeId, Unary, Value, VariableId, evaluate};
+use sophy_ir::{Binary, Comparison, Graph, Leaf, Model, NodeId, Unary, Value, VariableId, evaluate};
 use sophy_record::{Side, Trajectory};
 use sophy_run::{AtEnd, Experiment, Interpolation, Method, Signal};
 use sophy_testkit::Build;
@@ -94,7 +94,7 @@ fn polynomial(roots: &[f64], factor: f64, comparison: Comparison, of_time: bool,
         b.compare(comparison, product, zero)
     };
     watched(&mut b, &[(x, one)], guard);
-    b.model
+    b.model()
 }
 
 proptest! {
@@ -157,7 +157,7 @@ proptest! {
         watched(&mut b, &[(x, one)], guard);
         let positive = matches!(comparison, Comparison::Greater | Comparison::GreaterEqual);
         let expected = first_time(&roots, 1.0, positive);
-        let found: Vec<f64> = run(&b.model, &by(method, to(4.0, 1e-2))).events.iter().map(|e| e.time).collect();
+        let found: Vec<f64> = run(&b.model(), &by(method, to(4.0, 1e-2))).events.iter().map(|e| e.time).collect();
         match expected {
             None => prop_assert!(found.is_empty(), "{found:?}"),
             Some(t) => {
@@ -174,6 +174,7 @@ type Atom = (u8, u8, f64);
 /// A rotation x₁ = cos 2t, x₂ = sin 2t and an input, watched by a boolean combination of atoms.
 struct Watched {
     model: Model,
+    graph: Graph,
     leaves: [Leaf; 3],
     guard: NodeId,
 }
@@ -205,7 +206,7 @@ fn rotation(atoms: &[Atom], joins: &[u8], guarded: bool) -> Watched {
     let down = b.unary(Unary::Negate, down);
     let never = b.graph().boolean(false);
     watched(&mut b, &[(x1, down), (x2, up)], if guarded { guard } else { never });
-    Watched { model: b.model, leaves: [x1, x2, u].map(Leaf::Variable), guard }
+    Watched { model: b.model(), graph: b.graph().clone(), leaves: [x1, x2, u].map(Leaf::Variable), guard }
 }
 
 fn comparison(b: &mut Build, (function, comparison, level): Atom, [x1, x2, u]: [NodeId; 3]) -> NodeId {
@@ -316,7 +317,7 @@ impl Watched {
                 None => t,
             })
         };
-        evaluate(&self.model.graph, self.guard, &mut leaf).boolean()
+        evaluate(&self.graph, self.guard, &mut leaf).boolean()
     }
 
     /// The first time at which the guard holds, by sampling each segment densely and bisecting.
@@ -421,7 +422,7 @@ fn double_crossings_inside_a_segment_are_found_and_touches_are_not() {
                 };
                 let guard = b.less(square, depth_node);
                 watched(&mut b, &[(x, one)], guard);
-                let events = run(&b.model, &by(method, to(4.0, 1e-2))).events;
+                let events = run(&b.model(), &by(method, to(4.0, 1e-2))).events;
                 if depth == 0.0 {
                     assert!(events.is_empty(), "{method:?} {middle}: {events:?}");
                 } else {

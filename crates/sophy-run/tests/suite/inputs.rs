@@ -37,7 +37,7 @@ fn satellite(k: f64, safe_load: f64) -> Model {
     b.when(payload, "toNominal", guard, nominal, &[(m, one)]);
     let guard = b.greater(rc, recovered);
     b.when(safe, "toNominal", guard, nominal, &[]);
-    b.model
+    b.model()
 }
 
 fn profile(interpolation: Interpolation) -> Signal {
@@ -199,7 +199,7 @@ fn guards_on_inputs_switch_at_breakpoints_and_on_lines() {
             (Interpolation::Linear, [1.5, 4.0], 1.0 + 3.0 + 6.0 + 0.5),
         ] {
             let inputs = vec![("u".to_owned(), signal(interpolation))];
-            let result = run(&b.model, &Experiment { inputs, ..by(method, to(5.0, 1e-3)) });
+            let result = run(&b.model(), &Experiment { inputs, ..by(method, to(5.0, 1e-3)) });
             let found: Vec<f64> = result.events.iter().map(|e| e.time).collect();
             assert_eq!(found, times, "{method:?} {interpolation:?}");
             let x = result.trajectory.value(0, 5.0, Side::Right);
@@ -230,13 +230,13 @@ fn events_from_outside_are_taken_at_their_time() {
     };
     // 0.7: in `off` nobody waits for `stop`. 3.0: two at one instant, one per micro-step, in their order.
     let events = [(0.7, "stop"), (1.25, "start"), (3.0, "halve"), (3.0, "stop"), (10.0, "start")];
-    let result = run(&b.model, &labelled(&events));
+    let result = run(&b.model(), &labelled(&events));
     let taken: Vec<_> = result.events.iter().map(|e| (e.time, e.step, e.transition.as_str())).collect();
     let expected = [(1.25, 0, "start"), (3.0, 0, "halve"), (3.0, 1, "stop"), (10.0, 0, "start")];
     assert_eq!(taken, expected);
     assert!((result.trajectory.value(0, 5.0, Side::Right) - 0.875).abs() < 1e-12);
 
-    let Err(SimulateError::Experiment(errors)) = try_run(&b.model, &labelled(&[(1.0, "strat")])) else {
+    let Err(SimulateError::Experiment(errors)) = try_run(&b.model(), &labelled(&[(1.0, "strat")])) else {
         panic!("there is no `strat`")
     };
     assert!(errors[0].to_string().contains("`strat`"), "{errors:?}");

@@ -71,7 +71,7 @@ proptest! {
             inputs: vec![("u".to_owned(), Signal::constant(input))],
             ..by(method, to(1.0, 1e-2))
         };
-        let system = Arc::new(sophy_passes::lower(&b.model).expect("lowers"));
+        let system = Arc::new(sophy_passes::lower(&b.model()).expect("lowers"));
         let mut run = Run::new(system, &experiment).expect("starts");
         run.advance(until, u64::MAX).expect("goes on");
         let values = [run.state(sophy_field::StateIndex(0)), run.state(sophy_field::StateIndex(1)), input, until];
@@ -80,7 +80,7 @@ proptest! {
             other => names.iter().position(|&name| name == other).map_or(0.7, |k| values[k]),
         });
         let jacobian = run.jacobian();
-        let mut graph = b.model.graph.clone();
+        let mut graph = b.graph().clone();
         for (row, &node) in right.iter().enumerate() {
             for column in 0..4 {
                 let name = names.get(column).copied().unwrap_or(Leaf::Time);

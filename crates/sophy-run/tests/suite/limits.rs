@@ -21,7 +21,7 @@ fn long_chains_need_no_stack() {
             let k = b.number(f64::from(k) / 200_010_000.0);
             let term = b.mul(k, t);
             sum = b.add(sum, term);
-            if let Some(index) = b.model.graph.as_number(k)
+            if let Some(index) = b.graph().as_number(k)
                 && index < 1e-6
             {
                 let part = b.greater(read, k);
@@ -31,7 +31,7 @@ fn long_chains_need_no_stack() {
         b.rate(here, x, sum);
         b.rate(there, x, zero);
         b.when(here, "over", guard, there, &[]);
-        let result = try_run(&b.model, &to(1.0, 1e-2)).expect("runs");
+        let result = try_run(&b.model(), &to(1.0, 1e-2)).expect("runs");
         // The terms add up to t, and x = t²/2 is past 1e-6 at once.
         assert_eq!(result.events.len(), 1);
         assert!(result.events[0].time < 2e-3);
@@ -55,7 +55,7 @@ fn switches_that_nest_too_deep_are_refused() {
             rate = fold(&mut b, rate, k);
         }
         b.rate(here, x, rate);
-        try_run(&b.model, &to(0.1, 1e-2))
+        try_run(&b.model(), &to(0.1, 1e-2))
     };
     let abs = |b: &mut Build, rate, k| {
         let size = b.unary(Unary::Abs, rate);

@@ -6,6 +6,7 @@ mod convergence;
 mod crossings;
 mod equations;
 mod failures;
+mod flags;
 mod guards;
 mod hopper;
 mod inputs;

@@ -19,7 +19,7 @@ fn a_truth_decided_by_the_motion_at_the_start_reaches_its_readers() {
     b.rate(here, x, one);
     let side = b.unary(Unary::Sign, read);
     b.rate(here, y, side);
-    let result = run(&b.model, &to(2.0, 1e-3));
+    let result = run(&b.model(), &to(2.0, 1e-3));
     assert_eq!(result.trajectory.value(1, 2.0, Side::Right), 2.0);
 }
 
@@ -37,7 +37,7 @@ fn a_reset_onto_the_surface_keeps_the_side_of_the_motion() {
     b.rate(here, y, side);
     let over = b.compare(Comparison::GreaterEqual, read, one);
     b.when(here, "back", over, here, &[(x, zero)]);
-    let result = run(&b.model, &to(3.0, 1e-3));
+    let result = run(&b.model(), &to(3.0, 1e-3));
     assert_eq!(result.events.len(), 3);
     assert_eq!(result.trajectory.value(1, 3.0, Side::Right), 3.0);
 }
@@ -65,7 +65,7 @@ fn a_stair_follows_jumps_of_its_argument() {
         origin: "a test".to_owned(),
     };
     let experiment = Experiment { inputs: vec![("u".to_owned(), signal)], ..to(5.0, 1e-3) };
-    let result = run(&b.model, &experiment);
+    let result = run(&b.model(), &experiment);
     let expected = [0.0, 0.0, 3.0, 4.0, 8.0, 7.0];
     for (t, expected) in expected.into_iter().enumerate() {
         assert_eq!(result.trajectory.value(0, t as f64, Side::Right), expected, "at {t}");
@@ -95,7 +95,7 @@ fn a_guard_sees_an_output_jump_with_its_location() {
     let over = b.greater(input, one);
     b.when(idle, "wake", over, busy, &[]);
     b.connect(y, u);
-    let result = run(&b.model, &to(2.0, 1e-3));
+    let result = run(&b.model(), &to(2.0, 1e-3));
     let events: Vec<(f64, u32, &str)> =
         result.events.iter().map(|e| (e.time, e.step, e.transition.as_str())).collect();
     assert_eq!(events, [(1.0, 0, "rise"), (1.0, 1, "wake")]);
@@ -114,7 +114,7 @@ fn a_guard_may_have_an_infinite_derivative() {
     let root = b.unary(Unary::Sqrt, read);
     let over = b.greater(root, one);
     b.when(here, "over", over, there, &[]);
-    let result = run(&b.model, &to(2.0, 1e-3));
+    let result = run(&b.model(), &to(2.0, 1e-3));
     assert_eq!(result.events.len(), 1);
     assert!((result.events[0].time - 1.0).abs() < 1e-12);
 }
@@ -135,7 +135,7 @@ fn a_long_cascade_at_one_instant_ends() {
     let both = b.graph().and(late, some);
     let less = b.sub(left, one);
     b.when(here, "count", both, here, &[(n, less)]);
-    let result = run(&b.model, &to(2.0, 1e-3));
+    let result = run(&b.model(), &to(2.0, 1e-3));
     assert_eq!(result.events.len(), 2500);
     assert_eq!(result.report.time, 2.0);
 }
@@ -163,6 +163,6 @@ fn a_long_chain_of_events_is_no_livelock() {
         b.connect_event((previous, "next"), (component, "go"));
         previous = component;
     }
-    let result = run(&b.model, &to(2.0, 1e-3));
+    let result = run(&b.model(), &to(2.0, 1e-3));
     assert_eq!(result.events.len(), 41);
 }

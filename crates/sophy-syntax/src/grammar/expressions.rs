@@ -35,6 +35,11 @@ pub(crate) fn expression(p: &mut Parser<'_>) {
     operation(p, Level::Conditional);
 }
 
+/// An expression without a comparison at its outside: the left side of an equation or an assignment.
+pub(crate) fn side(p: &mut Parser<'_>) {
+    operation(p, Level::Sum);
+}
+
 /// An operand and the operators after it that bind at least as tightly as `least`.
 fn operation(p: &mut Parser<'_>, least: Level) {
     p.nested(|p| {
@@ -42,6 +47,9 @@ fn operation(p: &mut Parser<'_>, least: Level) {
         let left = p.range().start;
         operand(p, least);
         while let Some(level) = infix(p.current()).filter(|&level| level >= least) {
+            if starts_operand(p.current()) && ends_before(p) {
+                break;
+            }
             match level {
                 Level::Power => power(p, start),
                 Level::Comparison => comparison(p, start, left),
@@ -81,7 +89,13 @@ fn starts_operand(kind: SyntaxKind) -> bool {
             | K::Not
             | K::If
             | K::LeftParenthesis
+            | K::LeftBracket
     )
+}
+
+/// Whether an operand that stands here after another one belongs to something else, rather than lacks an operator.
+fn ends_before(p: &Parser<'_>) -> bool {
+    p.begins_anew() || p.at_word("where")
 }
 
 /// `a + b - c`: operands of one level, left to right.
@@ -96,6 +110,9 @@ fn chain(p: &mut Parser<'_>, start: Checkpoint, level: Level) {
     let mut forgotten = false;
     while infix(p.current()) == Some(level) {
         if starts_operand(p.current()) {
+            if ends_before(p) {
+                break;
+            }
             if !forgotten {
                 missing_operator(p);
             }
@@ -151,10 +168,8 @@ fn operand(p: &mut Parser<'_>, least: Level) {
     use SyntaxKind as K;
     match p.current() {
         K::Number | K::True | K::False => leaf(p, K::Literal),
-        K::String => leaf(p, K::Error), // reported by the lexer
-        K::Name | K::QuotedName if p.next() == K::LeftParenthesis => call(p),
-        K::Name | K::QuotedName => leaf(p, K::Reference),
-        K::LeftParenthesis => parentheses(p),
+        K::String => leaf(p, K::StringLiteral), // where there are none, the lexer has reported it
+        K::Name | K::QuotedName | K::LeftParenthesis | K::LeftBracket => selection(p),
         K::Minus | K::Plus => prefix(p, Level::Sign),
         K::Not => {
             if least > Level::Not {
@@ -185,53 +200,195 @@ fn prefix(p: &mut Parser<'_>, operand: Level) {
     p.finish_node();
 }
 
+/// An operand and what is selected of it: `x[2]`, `auv.drag.x[i]`, `(A*B)[1, 2]`.
+fn selection(p: &mut Parser<'_>) {
+    use SyntaxKind as K;
+    let start = p.checkpoint();
+    match p.current() {
+        K::LeftParenthesis => parentheses(p),
+        K::LeftBracket => vector(p),
+        _ if p.next() == K::LeftParenthesis => call(p),
+        _ => leaf(p, K::Reference),
+    }
+    let mut kind = None;
+    loop {
+        match p.current() {
+            K::LeftBracket if !p.begins_anew() => {
+                indices(p);
+                kind = kind.or(Some(K::Index));
+            }
+            K::Dot => {
+                p.bump();
+                kind = Some(K::Path);
+                if matches!(p.current(), K::Name | K::QuotedName) || p.current().word().is_some() {
+                    p.bump();
+                } else {
+                    missing_operand(p);
+                }
+            }
+            _ => break,
+        }
+    }
+    if let Some(kind) = kind {
+        p.start_at(start, kind);
+        p.finish_node();
+    }
+}
+
+/// `[i, j]` after what it selects from.
+fn indices(p: &mut Parser<'_>) {
+    p.start(SyntaxKind::Indices);
+    p.bump();
+    list(p, SyntaxKind::RightBracket);
+    p.finish_node();
+}
+
+/// `[1, 2]`, `[[1, 2], [3, 4]]`.
+fn vector(p: &mut Parser<'_>) {
+    p.start(SyntaxKind::Vector);
+    p.bump();
+    list(p, SyntaxKind::RightBracket);
+    p.finish_node();
+}
+
 fn parentheses(p: &mut Parser<'_>) {
     p.start(SyntaxKind::Parentheses);
     p.bump();
     expression(p);
-    close(p);
+    close(p, SyntaxKind::RightParenthesis);
     p.finish_node();
 }
 
-/// `name(a, b)`.
+/// `name(a, b)`, `sum(i in 1..n : x[i])`.
 fn call(p: &mut Parser<'_>) {
-    p.start(SyntaxKind::Call);
+    let start = p.checkpoint();
     p.bump();
-    p.start(SyntaxKind::Arguments);
+    let parenthesis = p.checkpoint();
     p.bump();
-    if p.current() != SyntaxKind::RightParenthesis {
-        expression(p);
-        while p.current() == SyntaxKind::Comma {
+    if at_binder(p) {
+        p.start_at(start, SyntaxKind::Reduction);
+        reduction(p);
+    } else {
+        p.start_at(start, SyntaxKind::Call);
+        p.start_at(parenthesis, SyntaxKind::Arguments);
+        if p.current() == SyntaxKind::RightParenthesis {
             p.bump();
-            expression(p);
-        }
-    }
-    close(p);
-    p.finish_node();
-    p.finish_node();
-}
-
-/// The `)` of a `(`, after whatever does not fit before it. That there is none is already reported.
-fn close(p: &mut Parser<'_>) {
-    if !matches!(p.current(), SyntaxKind::RightParenthesis | SyntaxKind::End) {
-        unexpected(p);
-        p.start(SyntaxKind::Error);
-        let mut open = 0;
-        loop {
-            match p.current() {
-                SyntaxKind::End => break,
-                SyntaxKind::RightParenthesis if open == 0 => break,
-                SyntaxKind::LeftParenthesis => open += 1,
-                SyntaxKind::RightParenthesis => open -= 1,
-                _ => {}
-            }
-            p.bump();
+        } else {
+            list(p, SyntaxKind::RightParenthesis);
         }
         p.finish_node();
     }
-    if p.current() == SyntaxKind::RightParenthesis {
+    p.finish_node();
+}
+
+/// Expressions with commas between them, up to `closing`.
+fn list(p: &mut Parser<'_>, closing: SyntaxKind) {
+    expression(p);
+    while p.current() == SyntaxKind::Comma {
+        p.bump();
+        expression(p);
+    }
+    close(p, closing);
+}
+
+/// Whether `i in` stands here.
+fn at_binder(p: &Parser<'_>) -> bool {
+    matches!(p.current(), SyntaxKind::Name | SyntaxKind::QuotedName) && is_in(p.next(), p.ahead(1).1)
+}
+
+/// Where it is not reserved, `in` is a name.
+fn is_in(kind: SyntaxKind, text: &str) -> bool {
+    kind == SyntaxKind::InKeyword || (kind == SyntaxKind::Name && text == "in")
+}
+
+/// `i in 1..n, j in 1..m where c : e)`.
+fn reduction(p: &mut Parser<'_>) {
+    let errors_before = p.error_count();
+    binder(p);
+    while p.current() == SyntaxKind::Comma {
+        p.bump();
+        if at_binder(p) {
+            binder(p);
+        } else {
+            missing(p, "a loop variable", "write for example `j in 1..3` after the comma");
+            skip(p, SyntaxKind::RightParenthesis);
+        }
+    }
+    if p.at_word("where") {
+        p.bump();
+        expression(p);
+    }
+    if p.current() == SyntaxKind::Colon {
+        p.bump();
+        expression(p);
+    } else {
+        if p.error_count() == errors_before {
+            missing(p, "`:`", "write the range, a colon and what is to be combined: `sum(i in 1..3 : x[i])`");
+        }
+        skip(p, SyntaxKind::RightParenthesis);
+    }
+    close(p, SyntaxKind::RightParenthesis);
+}
+
+/// `i in 1..n`.
+fn binder(p: &mut Parser<'_>) {
+    p.start(SyntaxKind::Binder);
+    p.bump();
+    p.bump();
+    p.start(SyntaxKind::Range);
+    operation(p, Level::Sum);
+    if p.current() == SyntaxKind::DotDot {
+        p.bump();
+        operation(p, Level::Sum);
+    } else {
+        missing(p, "`..`", "a range has a first and a last value: `1..3`");
+    }
+    p.finish_node();
+    p.finish_node();
+}
+
+/// Something a reduction needs does not stand here.
+fn missing(p: &mut Parser<'_>, what: &str, help: &str) {
+    if p.after_reported() {
+        return;
+    }
+    let range = p.range();
+    let before = match p.text_of(range.clone()) {
+        "" => "at the end".to_owned(),
+        text => format!("before `{text}`"),
+    };
+    p.error(
+        SyntaxError::new(codes::MISSING_EXPRESSION, range, format!("{what} is missing {before}")).help(help),
+    );
+}
+
+/// The closing bracket, after whatever does not fit before it. That there is none is already reported.
+fn close(p: &mut Parser<'_>, closing: SyntaxKind) {
+    if p.current() != closing && p.current() != SyntaxKind::End {
+        unexpected(p);
+        skip(p, closing);
+    }
+    if p.current() == closing {
         p.bump();
     }
+}
+
+/// Takes what stands before `closing`.
+fn skip(p: &mut Parser<'_>, closing: SyntaxKind) {
+    use SyntaxKind as K;
+    p.start(K::Error);
+    let mut open = 0;
+    loop {
+        match p.current() {
+            K::End => break,
+            kind if kind == closing && open == 0 => break,
+            K::LeftParenthesis | K::LeftBracket | K::LeftBrace => open += 1,
+            K::RightParenthesis | K::RightBracket | K::RightBrace => open -= 1,
+            _ => {}
+        }
+        p.bump();
+    }
+    p.finish_node();
 }
 
 /// `if c then a else b`.
@@ -297,12 +454,14 @@ fn missing_operand(p: &mut Parser<'_>) {
     }
     let here = p.range();
     let (range, message) = match p.previous() {
-        Some(before) if matches!(before.kind, K::LeftParenthesis | K::Comma) => match p.current() {
-            K::RightParenthesis | K::Comma | K::End => {
-                (before.range.start..here.end, "an expression is missing here".to_owned())
+        Some(before) if matches!(before.kind, K::LeftParenthesis | K::LeftBracket | K::Comma) => {
+            match p.current() {
+                K::RightParenthesis | K::RightBracket | K::Comma | K::End => {
+                    (before.range.start..here.end, "an expression is missing here".to_owned())
+                }
+                _ => (here.clone(), format!("`{}` has nothing on its left", p.text_of(here))),
             }
-            _ => (here.clone(), format!("`{}` has nothing on its left", p.text_of(here))),
-        },
+        }
         Some(before) => {
             (before.range.clone(), format!("`{}` has nothing on its right", p.text_of(before.range)))
         }

@@ -9,7 +9,7 @@ use sophy_run::{AtEnd, Interpolation, Method, Quantum, QuantumRule, Signal};
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
-const SECTIONS: &[&str] = &["model", "run", "engine", "knobs", "initial", "inputs", "record"];
+const SECTIONS: &[&str] = &["model", "system", "run", "engine", "knobs", "initial", "inputs", "record"];
 const RUN: &[&str] = &["start", "stop", "seed", "input_events", "initial_location"];
 const ENGINE: &[&str] = &["method", "quantum", "tolerance"];
 const QUANTUM: &[&str] = &["absolute", "relative"];
@@ -17,17 +17,25 @@ const INPUT: &[&str] = &["file", "column", "interpolate", "after"];
 const RECORD: &[&str] =
     &["variables", "every", "microsteps", "events_all", "output", "events", "plot", "phase"];
 
-/// Reads the text of an experiment whose paths are relative to `folder`: the setup as far as it is right, the
-/// path of the model, and all mistakes.
-pub(crate) fn read_setup(
-    source: SourceId,
-    text: &str,
-    folder: &Path,
-) -> (Setup, Option<PathBuf>, Diagnostics) {
+/// What an experiment file says.
+pub(crate) struct SetupReading {
+    /// The setup as far as it is right.
+    pub(crate) setup: Setup,
+    /// Path of the model.
+    pub(crate) model: Option<PathBuf>,
+    /// The component of the model that is run, where it is said.
+    pub(crate) system: Option<String>,
+    /// All mistakes.
+    pub(crate) diagnostics: Diagnostics,
+}
+
+/// Reads the text of an experiment whose paths are relative to `folder`.
+pub(crate) fn read_setup(source: SourceId, text: &str, folder: &Path) -> SetupReading {
     let mut reader = Reader {
         values: Values { source, diagnostics: Diagnostics::default() },
         setup: Setup::default(),
         model: None,
+        system: None,
         folder,
     };
     let (root, mistakes) = DeTable::parse_recoverable(text);
@@ -39,16 +47,18 @@ pub(crate) fn read_setup(
     if reader.model.is_none() && mistakes.is_empty() && !root.get_ref().contains_key("model") {
         reader.values.diagnostics.push(
             Diagnostic::error(MISSING_KEY, Span::new(source, 0..0), "the experiment names no model")
-                .help("begin with `model = \"FILE.xml\"`, a path relative to this file"),
+                .help("begin with `model = \"FILE.hsml\"`, a path relative to this file"),
         );
     }
-    (reader.setup, reader.model, reader.values.diagnostics)
+    let Reader { values, setup, model, system, .. } = reader;
+    SetupReading { setup, model, system, diagnostics: values.diagnostics }
 }
 
 struct Reader<'a> {
     values: Values,
     setup: Setup,
     model: Option<PathBuf>,
+    system: Option<String>,
     folder: &'a Path,
 }
 
@@ -57,6 +67,7 @@ impl Reader<'_> {
         for (key, value) in root {
             match key.get_ref().as_ref() {
                 "model" => self.model = self.values.text(value).map(|path| self.folder.join(path)),
+                "system" => self.system = self.values.text(value),
                 "run" => self.section(value, Self::run),
                 "engine" => self.section(value, Self::engine),
                 "knobs" => self.section_at("knobs", key, value, Self::knob),

@@ -1,0 +1,423 @@
+use super::automaton::BuiltLocation;
+use super::builder::{Builder, Shared};
+use super::matching::match_constraints;
+use super::statements::assigned_names;
+use crate::checks::{
+    hs0101_unknown_name, hs0102_equation_for_undeclared_state, hs0103_reset_of_undeclared_state,
+    hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice, hs0109_output_without_map,
+    hs0110_state_without_equation, hs0112_location_declared_twice, hs0113_transition_declared_twice,
+    hs0114_unknown_destination, hs0115_unknown_initial_location, hs0116_unreachable_location,
+    hs0117_hidden_name, hs0118_unused, hs0119_no_location, hs0127_declaration_for_another_kind,
+    hs0143_local_without_equation, hs0144_flag_without_event, hs0201_unknown_function,
+    hs0206_natural_logarithm, hs0401_constant_guard, hs0402_taken_on_entry,
+};
+use crate::declarations::{
+    ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration,
+};
+use crate::lower::{SymbolKind, SymbolValue};
+use sophy_diagnostics::{Diagnostics, Span};
+use sophy_ir::{EventSection, VariableId, VariableKind};
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+/// Something that is defined or assigned although it cannot be.
+#[derive(Clone, Debug)]
+pub(crate) struct Stray {
+    pub(crate) name: String,
+    pub(crate) span: Span,
+    /// What the name stands for and where it is declared; `None` if it is not.
+    pub(crate) found: Option<(SymbolKind, Span)>,
+}
+
+/// Equations and resets whose left-hand side names nothing that could have one.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Strays {
+    pub(crate) rates: Vec<Stray>,
+    pub(crate) values: Vec<Stray>,
+    pub(crate) resets: Vec<Stray>,
+}
+
+impl<'a> Shared<'a> {
+    /// Names of constants and functions: each is declared once, and hides nothing.
+    pub(crate) fn check_globals(
+        &mut self,
+        constants: &[&'a ParameterDeclaration],
+        functions: &[&'a FunctionDeclaration],
+    ) {
+        let constants = constants.iter().map(|constant| (&constant.name, SymbolKind::Constant));
+        let functions_named = functions.iter().map(|function| (&function.name, SymbolKind::Function));
+        let mut first: HashMap<&str, (SymbolKind, Span)> = HashMap::new();
+        for (name, kind) in constants.chain(functions_named).filter(|(name, _)| !name.value.is_empty()) {
+            match first.get(name.value.as_str()) {
+                Some(&first) => {
+                    let again = (kind, name.span);
+                    self.findings.report(hs0107_declared_twice::diagnostic(&name.value, first, again));
+                }
+                None => {
+                    first.insert(&name.value, (kind, name.span));
+                }
+            }
+            if hs0117_hidden_name::is_predefined(&name.value) {
+                let what = kind.with_article();
+                self.findings.report(hs0117_hidden_name::diagnostic(&name.value, name.span, what));
+            }
+        }
+        for (parameter, _) in functions.iter().flat_map(|function| &function.parameters) {
+            if hs0117_hidden_name::is_predefined(&parameter.value) {
+                let found = hs0117_hidden_name::diagnostic(&parameter.value, parameter.span, "a parameter");
+                self.findings.report(found);
+            }
+        }
+        for (diagnostic, _) in hs0101_unknown_name::find(&self.findings.unknown_names) {
+            self.findings.report(diagnostic);
+        }
+        let mut found = Diagnostics::default();
+        for diagnostic in hs0201_unknown_function::find(&self.findings.unknown_names) {
+            found.push(diagnostic);
+        }
+        if let Some(diagnostic) = hs0206_natural_logarithm::find(&self.findings.logarithms) {
+            found.push(diagnostic);
+        }
+        self.findings.report_all(found);
+        self.findings.unknown_names.clear();
+        self.findings.logarithms.clear();
+    }
+}
+
+impl Builder<'_, '_> {
+    /// Complains about sections that this kind of component does not have.
+    pub(crate) fn check_sections(&mut self) {
+        use ComponentKind::{Cc, Ctc, Dtc, Lbc, System};
+        let d = self.declaration;
+        let place = d.name.span;
+        let composite = matches!(d.kind, Cc | System);
+        let first_location = d.locations.first().map(|location| location.name.span);
+        let first_rule = d.rules.first().map(|rule| rule.span);
+        let first_event = d.events.first().map(|event| event.flag.span);
+        let member = (!d.members.is_empty()).then_some(place);
+        let connection = (!d.connections.is_empty()).then_some(place);
+        let equation = |items: &[crate::declarations::EquationItem]| match items.first() {
+            Some(crate::declarations::EquationItem::Equation(e)) => Some(e.target.name.span),
+            Some(_) => Some(place),
+            None => None,
+        };
+        let dynamics = equation(&d.equations.dynamics);
+        let output = equation(&d.equations.output);
+        let constraint = d.equations.constraints.first().map(|c| c.left.span);
+        let update = (!d.update.is_empty()).then_some(place);
+        let wrong: [(&str, &str, bool, Option<Span>); 9] = [
+            ("location", "a CTC", d.kind != Ctc, first_location),
+            ("event", "a CTC", d.kind != Ctc, first_event),
+            ("rules", "a CTC or LBC", !matches!(d.kind, Ctc | Lbc), first_rule),
+            ("components", "a CC or SYSTEM", !composite, member),
+            ("connections", "a CC or SYSTEM", !composite, connection),
+            ("dynamics", "a CTC", d.kind != Ctc, dynamics),
+            ("constraints", "a CTC", composite || d.kind == Lbc, constraint),
+            ("output", "a CTC, DTC or LBC", composite, output),
+            ("update", "a DTC", d.kind != Dtc, update),
+        ];
+        for (section, suits, is_wrong, span) in wrong {
+            if let (true, Some(span)) = (is_wrong, span) {
+                self.report(hs0127_declaration_for_another_kind::section(d.kind, section, suits, span));
+            }
+        }
+        if let (Some(clock), true) = (&d.clock, d.kind != Dtc) {
+            let span = match clock {
+                crate::declarations::ClockDeclaration::Announced { name, .. } => name.span,
+                crate::declarations::ClockDeclaration::Every { span, .. } => *span,
+            };
+            self.report(hs0127_declaration_for_another_kind::section(d.kind, "tsample", "a DTC", span));
+        }
+    }
+
+    /// What only all locations together show.
+    pub(crate) fn check_automaton(&mut self, locations: &[BuiltLocation<'_>], events: &[EventSection]) {
+        let declaration = self.declaration;
+        let mut meant: BTreeSet<String> = locations.iter().flat_map(|l| l.defined.meant.iter().cloned()).collect();
+        self.check_strays(locations, &mut meant);
+        let mut found = Diagnostics::default();
+        for diagnostic in hs0106_unit_for_unknown_name::find(declaration, &self.symbols) {
+            found.push(diagnostic);
+        }
+        hs0112_location_declared_twice::find(declaration, &mut found);
+        hs0113_transition_declared_twice::find(declaration, &mut found);
+        hs0114_unknown_destination::find(declaration, &mut found);
+        hs0115_unknown_initial_location::find(declaration, &mut found);
+        hs0116_unreachable_location::find(declaration, locations, &self.graph, &mut found);
+        hs0401_constant_guard::find(locations, &self.graph, &mut found);
+        hs0402_taken_on_entry::find(declaration, locations, &mut self.graph, &mut found);
+        self.shared.findings.report_all(found);
+        if declaration.dialect == Dialect::Xml && declaration.locations.is_empty() {
+            self.report(hs0119_no_location::diagnostic(&declaration.name.value, declaration.name.span));
+            return;
+        }
+        self.check_states(locations, &meant);
+        self.check_values(locations, &meant);
+        let listened: HashSet<VariableId> = events.iter().map(|section| section.flag).collect();
+        let flags: Vec<VariableId> = self.ids_of(|kind| kind == VariableKind::Flag);
+        let written: HashSet<&str> = declaration.events.iter().map(|event| event.flag.value.as_str()).collect();
+        for flag in flags {
+            let variable = &self.variables[flag.0 as usize];
+            let base = variable.name.split('[').next().unwrap_or("");
+            if !listened.contains(&flag) && !written.contains(base) {
+                let (name, span) = (variable.name.clone(), variable.span.unwrap_or(declaration.name.span));
+                self.report(hs0144_flag_without_event::diagnostic(&name, span));
+            }
+        }
+    }
+
+    fn ids_of(&self, kind: impl Fn(VariableKind) -> bool) -> Vec<VariableId> {
+        let numbered = self.variables.iter().enumerate();
+        numbered.filter(|(_, v)| kind(v.kind)).map(|(k, _)| VariableId(k as u32)).collect()
+    }
+
+    fn check_strays(&mut self, locations: &[BuiltLocation<'_>], meant: &mut BTreeSet<String>) {
+        let strays = std::mem::take(&mut self.strays);
+        let names: Vec<(String, SymbolKind)> =
+            self.symbols.names().into_iter().map(|(name, symbol)| (name.to_owned(), symbol.kind)).collect();
+        let states: Vec<&str> =
+            names.iter().filter(|(_, kind)| *kind == SymbolKind::State).map(|(name, _)| name.as_str()).collect();
+        let has_equation = |state: &&str| {
+            let id = match self.symbols.get(state).map(|symbol| &symbol.value) {
+                Some(SymbolValue::Variable(variable)) => variable.first,
+                _ => return true,
+            };
+            locations.iter().all(|location| location.defined.rates.contains_key(&id))
+        };
+        let (with, without): (Vec<&str>, Vec<&str>) = states.iter().partition(|state| has_equation(state));
+        let likely_states: Vec<&str> = without.into_iter().chain(with).collect();
+        let xml = self.declaration.dialect == Dialect::Xml;
+        let outputs: Vec<&str> = if xml {
+            let all = self.declaration.ports.iter();
+            all.filter(|port| port.direction == crate::declarations::Direction::Output)
+                .map(|port| port.name.value.as_str())
+                .collect()
+        } else {
+            let defined = |kind| matches!(kind, SymbolKind::Output | SymbolKind::Local | SymbolKind::Flag);
+            names.iter().filter(|(_, kind)| defined(*kind)).map(|(name, _)| name.as_str()).collect()
+        };
+        let has_value = |output: &&str| match self.symbols.get(output).map(|symbol| &symbol.value) {
+            Some(SymbolValue::Variable(variable)) => {
+                locations.iter().all(|location| location.defined.values.contains_key(&variable.first))
+            }
+            _ => true,
+        };
+        let (with, without): (Vec<&str>, Vec<&str>) = outputs.iter().partition(|output| has_value(output));
+        let likely_outputs: Vec<&str> = without.into_iter().chain(with).collect();
+        let mut reports = hs0102_equation_for_undeclared_state::find(&strays.rates, &likely_states);
+        let what = if xml { "output" } else { "local or output" };
+        let resets = hs0103_reset_of_undeclared_state::find(&strays.resets, &likely_states);
+        reports.extend(resets.into_iter().map(|diagnostic| (diagnostic, None)));
+        reports.extend(hs0104_map_for_undeclared_output::find(&strays.values, &likely_outputs, what));
+        for (diagnostic, name) in reports {
+            self.report(diagnostic);
+            self.suggested.extend(name.iter().cloned());
+            meant.extend(name);
+        }
+    }
+
+    fn declared_in(&self) -> HashMap<String, &'_ LocationDeclaration> {
+        let mut places = HashMap::new();
+        for location in &self.declaration.locations {
+            for variable in &location.variables {
+                places.entry(variable.name.value.clone()).or_insert(location);
+            }
+        }
+        places
+    }
+
+    fn check_states(&mut self, locations: &[BuiltLocation<'_>], meant: &BTreeSet<String>) {
+        let has_locations = !self.declaration.locations.is_empty();
+        let own = self.declared_in();
+        let mut found = Vec::new();
+        let mut seen: BTreeSet<String> = BTreeSet::new();
+        for state in self.ids_of(|kind| matches!(kind, VariableKind::State(_))) {
+            let variable = &self.variables[state.0 as usize];
+            let base = variable.name.split('[').next().unwrap_or("").to_owned();
+            let span = variable.span.unwrap_or(self.declaration.name.span);
+            if meant.contains(&base) || seen.contains(&base) {
+                continue;
+            }
+            let constrained = |l: &BuiltLocation<'_>| {
+                let nodes = l.constraints.iter().flat_map(|c| [c.left, c.right]);
+                self.graph.dependencies(nodes).contains(&sophy_ir::Leaf::Variable(state))
+            };
+            let defines = |l: &&BuiltLocation<'_>| l.defined.rates.contains_key(&state) || constrained(l);
+            let lives = |l: &&BuiltLocation<'_>| match (own.get(&base), l.declaration) {
+                (Some(home), Some(location)) => home.name.span == location.name.span,
+                _ => true,
+            };
+            let lacking: Vec<&BuiltLocation<'_>> =
+                locations.iter().filter(lives).filter(|l| !defines(l)).collect();
+            if lacking.is_empty() {
+                continue;
+            }
+            if !locations.iter().any(|l| defines(&l)) {
+                if has_locations || !locations.is_empty() {
+                    found.push(hs0110_state_without_equation::nowhere(&variable.name, span, has_locations));
+                    seen.insert(base);
+                }
+                continue;
+            }
+            for location in lacking {
+                let Some(written) = location.declaration else { continue };
+                found.push(hs0110_state_without_equation::diagnostic(
+                    &variable.name,
+                    span,
+                    &written.name.value,
+                    written.name.span,
+                ));
+            }
+            seen.insert(base);
+        }
+        for diagnostic in found {
+            self.report(diagnostic);
+        }
+    }
+
+    /// Outputs, locals and flags have an equation in every location, or a constraint determines them.
+    fn check_values(&mut self, locations: &[BuiltLocation<'_>], meant: &BTreeSet<String>) {
+        let own = self.declared_in();
+        let assigned: BTreeSet<String> =
+            assigned_names(self.declaration).into_iter().map(str::to_owned).collect();
+        let xml = self.declaration.dialect == Dialect::Xml;
+        let mut lacking_maps: Vec<(VariableId, Vec<(String, Span)>)> = Vec::new();
+        let mut found = Vec::new();
+        let mut seen: BTreeSet<String> = BTreeSet::new();
+        let with_value = |kind| matches!(kind, VariableKind::Local | VariableKind::Flag | VariableKind::Output);
+        let ids = self.ids_of(with_value);
+        for location in locations {
+            let lives = |base: &str| match (own.get(base), location.declaration) {
+                (Some(home), Some(written)) => home.name.span == written.name.span,
+                _ => true,
+            };
+            let lacking: Vec<VariableId> = ids
+                .iter()
+                .copied()
+                .filter(|&id| {
+                    let base = self.variables[id.0 as usize].name.split('[').next().unwrap_or("");
+                    let is_local = self.variables[id.0 as usize].kind == VariableKind::Local;
+                    !location.defined.values.contains_key(&id)
+                        && !meant.contains(base)
+                        && lives(base)
+                        && !(is_local && assigned.contains(base))
+                })
+                .collect();
+            let matched = match_constraints(&self.graph, &location.defined, &location.constraints, &lacking);
+            for &constraint in &matched.superfluous {
+                let span = location.constraints[constraint].span.unwrap_or(self.declaration.name.span);
+                let place = location.declaration.map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
+                found.push(crate::checks::hs0145_constrained::too_many(span, &place));
+            }
+            for id in matched.undetermined {
+                let place = location.declaration.map(|l| (l.name.value.clone(), l.name.span));
+                match lacking_maps.iter_mut().find(|(known, _)| *known == id) {
+                    Some((_, places)) => places.extend(place),
+                    None => lacking_maps.push((id, place.into_iter().collect())),
+                }
+            }
+        }
+        for (id, places) in lacking_maps {
+            let variable = &self.variables[id.0 as usize];
+            let base = variable.name.split('[').next().unwrap_or("").to_owned();
+            let span = variable.span.unwrap_or(self.declaration.name.span);
+            if !seen.insert(base) {
+                continue;
+            }
+            if xml {
+                let places: Vec<(&str, Span)> = places.iter().map(|(name, span)| (name.as_str(), *span)).collect();
+                if !places.is_empty() {
+                    found.push(hs0109_output_without_map::diagnostic(&variable.name, span, &places));
+                }
+                continue;
+            }
+            let kind = match variable.kind {
+                VariableKind::Flag => SymbolKind::Flag,
+                VariableKind::Output => SymbolKind::Output,
+                _ => SymbolKind::Local,
+            };
+            let place = match places.as_slice() {
+                [] => String::new(),
+                all if all.len() == locations.len() => " in any location".to_owned(),
+                [(name, _), ..] => format!(" in location `{name}`"),
+            };
+            let used = places.first().filter(|_| places.len() < locations.len()).map(|(_, span)| *span);
+            found.push(hs0143_local_without_equation::diagnostic(&variable.name, kind, span, &place, used));
+        }
+        for diagnostic in found {
+            self.report(diagnostic);
+        }
+    }
+
+    /// Outputs of a discrete-time component have an equation or are assigned; so have locals.
+    pub(crate) fn check_discrete(&mut self) {
+        let mut meant = BTreeSet::new();
+        self.check_strays(&[], &mut meant);
+        let assigned: BTreeSet<String> =
+            assigned_names(self.declaration).into_iter().map(str::to_owned).collect();
+        let defined: BTreeSet<VariableId> = self.defined_values.clone();
+        let mut seen = BTreeSet::new();
+        for id in self.ids_of(|kind| matches!(kind, VariableKind::Local | VariableKind::Output)) {
+            let variable = &self.variables[id.0 as usize];
+            let base = variable.name.split('[').next().unwrap_or("").to_owned();
+            if defined.contains(&id) || meant.contains(&base) || assigned.contains(&base) || !seen.insert(base) {
+                continue;
+            }
+            let kind = if variable.kind == VariableKind::Local { SymbolKind::Local } else { SymbolKind::Output };
+            let span = variable.span.unwrap_or(self.declaration.name.span);
+            let name = variable.name.clone();
+            self.report(hs0143_local_without_equation::diagnostic(&name, kind, span, "", None));
+        }
+    }
+
+    /// Unknown names, and names that are of no use.
+    pub(crate) fn check_uses(&mut self) {
+        let unknown = std::mem::take(&mut self.shared.findings.unknown_names);
+        for (diagnostic, suggested) in hs0101_unknown_name::find(&unknown) {
+            self.report(diagnostic);
+            self.suggested.extend(suggested);
+        }
+        let mut found = Diagnostics::default();
+        for diagnostic in hs0201_unknown_function::find(&unknown) {
+            found.push(diagnostic);
+        }
+        let logarithms = std::mem::take(&mut self.shared.findings.logarithms);
+        if let Some(diagnostic) = hs0206_natural_logarithm::find(&logarithms) {
+            found.push(diagnostic);
+        }
+        self.shared.findings.report_all(found);
+        let xml = self.declaration.dialect == Dialect::Xml;
+        let composite = matches!(self.declaration.kind, ComponentKind::Cc | ComponentKind::System);
+        let mut found = Vec::new();
+        for (name, symbol) in self.symbols.names() {
+            if self.symbols.declared(name).is_none_or(|own| own.span != symbol.span) {
+                continue;
+            }
+            if hs0117_hidden_name::is_predefined(name) {
+                found.push(hs0117_hidden_name::diagnostic(name, symbol.span, symbol.kind.with_article()));
+            }
+            let what = match symbol.kind {
+                SymbolKind::Constant => "constant",
+                SymbolKind::Input => "input",
+                SymbolKind::Parameter => "parameter",
+                SymbolKind::Knob => "knob",
+                SymbolKind::Local if !self.is_seen(name) => "local",
+                _ => continue,
+            };
+            let used = self.symbols.used().contains(name) || self.suggested.contains(name);
+            if !used && !(composite && symbol.kind == SymbolKind::Input) && (xml || !self.is_seen(name)) {
+                found.push(hs0118_unused::diagnostic(what, name, symbol.span));
+            }
+        }
+        for diagnostic in found {
+            self.report(diagnostic);
+        }
+    }
+
+    /// Whether a variable can be seen from outside.
+    fn is_seen(&self, name: &str) -> bool {
+        let found = self.symbols.get(name).map(|symbol| &symbol.value);
+        let Some(SymbolValue::Variable(symbol)) = found else { return true };
+        let variable = &self.variables[symbol.first.0 as usize];
+        variable.viewed || variable.kind == VariableKind::Output
+    }
+}

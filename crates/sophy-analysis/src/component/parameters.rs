@@ -1,0 +1,201 @@
+use super::builder::Builder;
+use crate::checks::{
+    hs0107_declared_twice, hs0108_defined_twice, hs0123_knob_without_value, hs0301_circular_constants,
+};
+use crate::declarations::{Dialect, ExpressionText, KnobDeclaration, ParameterDeclaration, Spanned};
+use crate::dependency_order::dependency_order;
+use crate::lower::{Place, Symbol, SymbolKind, SymbolValue, Varies, VariableSymbol, names_in};
+use sophy_diagnostics::Span;
+use sophy_ir::{Quantity, Variable, VariableId, VariableKind};
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+/// A parameter as declared: as a knob, by its assignment, or both.
+struct Parameter<'a> {
+    name: &'a Spanned<String>,
+    knob: Option<&'a KnobDeclaration>,
+    value: Option<&'a ParameterDeclaration>,
+}
+
+impl<'a> Builder<'_, 'a> {
+    /// Enters knobs and parameters, each after those its value reads.
+    pub(crate) fn declare_parameters(&mut self) {
+        let parameters = self.written_parameters();
+        let place: HashMap<&str, usize> =
+            parameters.iter().enumerate().map(|(index, p)| (p.name.value.as_str(), index)).collect();
+        let needs: Vec<Vec<usize>> = parameters
+            .iter()
+            .map(|parameter| {
+                let names = parameter.value.map(|value| self.names_read(&value.value)).unwrap_or_default();
+                names.iter().filter_map(|name| place.get(name.as_str()).copied()).collect()
+            })
+            .collect();
+        for parameter in &parameters {
+            let symbol = Symbol {
+                kind: self.parameter_kind(parameter),
+                span: parameter.name.span,
+                value: SymbolValue::Broken,
+            };
+            self.declare(parameter.name, symbol);
+        }
+        let sorted = dependency_order(&needs);
+        for cycle in &sorted.cycles {
+            let members: Vec<&ParameterDeclaration> =
+                cycle.iter().filter_map(|&index| parameters[index].value).collect();
+            self.report(hs0301_circular_constants::parameters(&members));
+        }
+        for index in sorted.order {
+            self.lower_parameter(&parameters[index]);
+        }
+    }
+
+    /// Names that an expression reads, in SOPHY XML also by way of the functions it calls: these may use constants.
+    fn names_read(&self, text: &ExpressionText) -> Vec<String> {
+        let mut names = names_in(text);
+        let mut next = 0;
+        let mut known: HashSet<String> = names.iter().cloned().collect();
+        while self.declaration.dialect == Dialect::Xml && next < names.len() {
+            if let Some(SymbolValue::Function(function)) =
+                self.shared.globals.get(&names[next]).map(|symbol| &symbol.value)
+            {
+                let arguments: HashSet<&str> = function.parameters.iter().map(|(p, _)| p.value.as_str()).collect();
+                let of_body = names_in(&function.body).into_iter();
+                names.extend(of_body.filter(|name| !arguments.contains(name.as_str()) && known.insert(name.clone())));
+            }
+            next += 1;
+        }
+        names
+    }
+
+    /// Enters a name of the component; says so if it is taken.
+    pub(crate) fn declare(&mut self, name: &Spanned<String>, symbol: Symbol<'a>) -> bool {
+        if name.value.is_empty() {
+            return false;
+        }
+        let (kind, again) = (symbol.kind, symbol.span);
+        let taken = self.symbols.declare(&name.value, symbol).map(|first| (first.kind, first.span));
+        if let Some((first_kind, first)) = taken {
+            self.report(hs0107_declared_twice::diagnostic(&name.value, (first_kind, first), (kind, again)));
+        } else if let Some(function) = self.function_of_xml(&name.value) {
+            let own = (kind, again);
+            let (first, again) = if function.1.start < again.start { (function, own) } else { (own, function) };
+            self.report(hs0107_declared_twice::diagnostic(&name.value, first, again));
+        }
+        taken.is_none()
+    }
+
+    /// Functions of SOPHY XML belong to its one component.
+    fn function_of_xml(&self, name: &str) -> Option<(SymbolKind, Span)> {
+        let function = self.shared.globals.get(name).filter(|s| s.kind == SymbolKind::Function)?;
+        (self.declaration.dialect == Dialect::Xml).then_some((function.kind, function.span))
+    }
+
+    fn written_parameters(&mut self) -> Vec<Parameter<'a>> {
+        let declaration = self.declaration;
+        let mut parameters: Vec<Parameter<'a>> = declaration
+            .knobs
+            .iter()
+            .map(|knob| Parameter { name: &knob.name, knob: Some(knob), value: None })
+            .collect();
+        let mut place: HashMap<&str, usize> = HashMap::new();
+        for (index, parameter) in parameters.iter().enumerate() {
+            place.entry(parameter.name.value.as_str()).or_insert(index);
+        }
+        for value in &declaration.parameters {
+            let name = value.name.value.as_str();
+            match place.get(name).map(|&index| &mut parameters[index]) {
+                Some(known) if known.value.is_none() => known.value = Some(value),
+                Some(known) if declaration.dialect == Dialect::Hsml => {
+                    let first = known.value.map_or(known.name.span, |first| first.name.span);
+                    let what = format!("the value of `{name}`");
+                    self.report(hs0108_defined_twice::diagnostic(&what, first, value.name.span));
+                }
+                _ => {
+                    place.entry(name).or_insert(parameters.len());
+                    parameters.push(Parameter { name: &value.name, knob: None, value: Some(value) });
+                }
+            }
+        }
+        parameters
+    }
+
+    fn parameter_kind(&self, parameter: &Parameter<'_>) -> SymbolKind {
+        match (parameter.knob, self.declaration.dialect) {
+            (_, Dialect::Xml) => SymbolKind::Constant,
+            (Some(_), _) => SymbolKind::Knob,
+            (None, _) => SymbolKind::Parameter,
+        }
+    }
+
+    fn lower_parameter(&mut self, parameter: &Parameter<'a>) {
+        let name = parameter.name;
+        let is_first = self.symbols.declared(&name.value).is_some_and(|symbol| symbol.span == name.span);
+        let Some(written) = parameter.value else {
+            self.report(hs0123_knob_without_value::diagnostic(&name.value, name.span));
+            return;
+        };
+        let xml = self.declaration.dialect == Dialect::Xml;
+        let place = if xml { Place { what: "a constant", ..Place::PARAMETER } } else { Place::PARAMETER };
+        let Some(value) = self.at(place).value(&written.value) else { return };
+        if !is_first {
+            return;
+        }
+        let unit = written.unit.as_ref().or(parameter.knob.and_then(|knob| knob.unit.as_ref()));
+        let measured = self.measured_in(unit, &value);
+        let quantity = if value.quantity == Quantity::Integer { Quantity::Real } else { value.quantity };
+        let value = self.as_stored(value);
+        let elements: Vec<_> = value.elements.as_slice().to_vec();
+        let range = self.range_of(parameter.knob.and_then(|knob| knob.range.as_ref()));
+        let first = VariableId(self.variables.len() as u32);
+        let given = self.given.get(&name.value).filter(|given| given.len() == elements.len()).cloned();
+        let documentation = match parameter.knob {
+            Some(knob) if !knob.documentation.is_empty() => &knob.documentation,
+            _ => &written.documentation,
+        };
+        let mut known = Vec::with_capacity(elements.len());
+        for (k, &node) in elements.iter().enumerate() {
+            let computed = match &given {
+                Some(given) => Some(given[k]),
+                None => self.known_value(node),
+            };
+            let node = match &given {
+                Some(given) => self.graph.number(given[k]),
+                None => node,
+            };
+            let id = VariableId(self.variables.len() as u32);
+            if let Some(computed) = computed {
+                self.values.insert(id, computed);
+                known.push(computed);
+            }
+            self.variables.push(Variable {
+                name: format!("{}{}", name.value, value.shape.suffix(k)),
+                kind: VariableKind::Parameter { value: node, knob: parameter.knob.is_some() },
+                quantity,
+                range: range.bounds,
+                choices: range.choices.clone(),
+                viewed: false,
+                unit: self.unit_label(&name.value, unit),
+                documentation: documentation.clone(),
+                span: Some(name.span),
+            });
+        }
+        if let (Some(range), false) = (parameter.knob.and_then(|knob| knob.range.as_ref()), known.is_empty()) {
+            self.check_in_range(&name.value, range, &known, written.value.span);
+        }
+        let all_known = known.len() == elements.len();
+        let symbol = VariableSymbol {
+            first,
+            shape: value.shape,
+            quantity,
+            measured,
+            varies: Varies::Parameters,
+            choices: Rc::from(range.choices),
+            known: all_known.then(|| Rc::from(known)),
+        };
+        let kind = self.parameter_kind(parameter);
+        self.symbols.redeclare(
+            &name.value,
+            Symbol { kind, span: name.span, value: SymbolValue::Variable(symbol) },
+        );
+    }
+}

@@ -1,0 +1,301 @@
+use super::builder::Builder;
+use super::checks::Stray;
+use super::equations::shape_of_part;
+use crate::checks::{
+    hs0108_defined_twice, hs0132_unknown_event, hs0133_not_assignable,
+    hs0134_hold_without_flag,
+};
+use crate::declarations::{ComponentDeclaration, Dialect, ExpressionText, Spanned, Statement, Target};
+use crate::lower::{Elements, Place, SymbolKind, SymbolValue, Typed};
+use sophy_diagnostics::Span;
+use sophy_ir::{Actions, Assignment, Emission, Leaf, NodeId, VariableId};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Where statements stand, and what they may do there.
+#[derive(Clone, Copy)]
+pub(crate) struct Setting<'s> {
+    /// For messages: `in transition `t``.
+    pub(crate) place: &'s str,
+    /// What right-hand sides may read.
+    pub(crate) reads: Place,
+    /// Whether events can be emitted.
+    pub(crate) emits: bool,
+    /// Whether `hold` has a meaning.
+    pub(crate) holds: bool,
+}
+
+/// New values so far, element by element.
+#[derive(Clone, Default)]
+struct New {
+    values: BTreeMap<VariableId, (Option<NodeId>, Span, Span)>,
+    /// Locals with their new elements.
+    locals: HashMap<String, Typed>,
+}
+
+struct Doing<'s> {
+    setting: Setting<'s>,
+    emissions: Vec<Emission>,
+    holds: Vec<VariableId>,
+    /// Under which condition the present statement is done.
+    when: Option<NodeId>,
+}
+
+impl<'a> Builder<'_, 'a> {
+    /// What statements do at an instant. Right-hand sides read the values before; a local is assigned above its use
+    /// and has its new value there.
+    pub(crate) fn actions(&mut self, statements: &'a [Statement], setting: Setting<'_>) -> Actions {
+        let mark = self.symbols.enter();
+        let mut doing = Doing { setting, emissions: Vec::new(), holds: Vec::new(), when: None };
+        let mut new = New::default();
+        self.statements(statements, &mut new, &mut doing);
+        self.symbols.leave(mark);
+        let assignment = |(variable, (right, span, _)): (VariableId, (Option<NodeId>, Span, Span))| {
+            Some(Assignment { variable, right: right?, span: Some(span) })
+        };
+        Actions {
+            assignments: new.values.into_iter().filter_map(assignment).collect(),
+            emissions: doing.emissions,
+            holds: doing.holds,
+        }
+    }
+
+    fn statements(&mut self, statements: &'a [Statement], new: &mut New, doing: &mut Doing<'_>) {
+        for statement in statements {
+            match statement {
+                Statement::Assign { target, right } => self.assign(target, right, new, doing),
+                Statement::Emit(label) => self.emit(label, doing),
+                Statement::Hold(flag) => self.hold(flag, doing),
+                Statement::If { branches, otherwise } => self.choose(branches, otherwise, new, doing),
+                Statement::For(turns) => {
+                    self.each_turn(turns, |b| b.statements(&turns.items, new, doing));
+                }
+            }
+        }
+    }
+
+    fn assign(
+        &mut self,
+        target: &'a Target,
+        right: &'a ExpressionText,
+        new: &mut New,
+        doing: &mut Doing<'_>,
+    ) {
+        let name = &target.name;
+        let reads = doing.setting.reads;
+        let found =
+            self.symbols.declared(&name.value).map(|symbol| (symbol.kind, symbol.span, symbol.value.clone()));
+        let assignable = match &found {
+            _ if name.value.is_empty() => false,
+            Some((_, _, SymbolValue::Broken)) => false,
+            Some((SymbolKind::State | SymbolKind::Mode | SymbolKind::Local, ..)) => true,
+            found if self.declaration.dialect == Dialect::Xml => {
+                let found = found.as_ref().map(|(kind, span, _)| (*kind, *span));
+                self.strays.resets.push(Stray { name: name.value.clone(), span: name.span, found });
+                false
+            }
+            Some((kind, declared, _)) => {
+                self.report(hs0133_not_assignable::diagnostic(name, *kind, *declared));
+                false
+            }
+            None => {
+                let diagnostic = hs0133_not_assignable::unknown(name, &self.symbols);
+                self.report(diagnostic);
+                false
+            }
+        };
+        let wanted = if assignable { self.expected(&name.value, "") } else { None };
+        let Some((symbol, mut expected)) = wanted else {
+            self.at(reads).value(right);
+            return;
+        };
+        let Some(ids) = self.target_elements(target, &symbol) else { return };
+        expected.shape = shape_of_part(symbol.shape, target.indices.len());
+        let value = self.at(reads).value_for(right, &expected);
+        let nodes = value.as_ref().map(|value| value.elements.as_slice().to_vec());
+        let is_local = matches!(found, Some((SymbolKind::Local, ..)));
+        if is_local {
+            self.assign_local(target, &ids, symbol.first, value, new);
+            return;
+        }
+        for (k, id) in ids.into_iter().enumerate() {
+            let node = nodes.as_ref().and_then(|nodes| nodes.get(k).copied());
+            if let Some(&(_, _, first)) = new.values.get(&id) {
+                let name = &self.variables[id.0 as usize].name;
+                let what = match self.declaration.dialect {
+                    Dialect::Xml => format!("the reset of `{name}`{}", doing.setting.place),
+                    Dialect::Hsml => format!("`{name} :=`{}", doing.setting.place),
+                };
+                self.report(hs0108_defined_twice::diagnostic(&what, first, name_span(target)));
+                continue;
+            }
+            new.values.insert(id, (node, right.span, name_span(target)));
+        }
+    }
+
+    fn assign_local(
+        &mut self,
+        target: &'a Target,
+        ids: &[VariableId],
+        first: VariableId,
+        value: Option<Typed>,
+        new: &mut New,
+    ) {
+        let Some(value) = value else { return };
+        let name = &target.name.value;
+        let whole = if target.indices.is_empty() {
+            Some(value)
+        } else {
+            // The other elements keep what they have.
+            self.at(Place::INSTANT).variable(name).map(|old| {
+                let mut elements = old.elements.as_slice().to_vec();
+                for (id, node) in ids.iter().zip(value.elements.as_slice()) {
+                    if let Some(element) = elements.get_mut((id.0 - first.0) as usize) {
+                        *element = *node;
+                    }
+                }
+                Typed { elements: Elements::from(elements), ..old }
+            })
+        };
+        if let Some(whole) = whole {
+            new.locals.insert(name.clone(), whole.clone());
+            self.symbols.bind(name, SymbolKind::Local, target.name.span, whole);
+        }
+    }
+
+    fn emit(&mut self, label: &'a Spanned<String>, doing: &mut Doing<'_>) {
+        let known = self.declaration.ports.iter().any(|port| port.name.value == label.value);
+        let xml = self.declaration.dialect == Dialect::Xml;
+        if !xml && (!known || !doing.setting.emits) {
+            let diagnostic = hs0132_unknown_event::emitted(label, self.declaration, doing.setting.emits);
+            self.report(diagnostic);
+            return;
+        }
+        if !xml && !hs0132_unknown_event::is_output_event(self.declaration, &label.value) {
+            self.report(hs0132_unknown_event::emitted(label, self.declaration, true));
+            return;
+        }
+        doing.emissions.push(Emission { label: label.value.clone(), when: doing.when });
+    }
+
+    fn hold(&mut self, flag: &'a Spanned<String>, doing: &mut Doing<'_>) {
+        match self.symbols.look_up(&flag.value) {
+            Some(symbol) if symbol.kind == SymbolKind::Flag && doing.setting.holds => {
+                if let SymbolValue::Variable(variable) = symbol.value {
+                    doing.holds.push(variable.first);
+                }
+            }
+            found => {
+                let kind = found.map(|symbol| (symbol.kind, symbol.span));
+                self.report(hs0134_hold_without_flag::diagnostic(flag, kind, doing.setting.place));
+            }
+        }
+    }
+
+    /// `if … then … elsif … else … end if`: what a branch leaves alone keeps its value.
+    fn choose(
+        &mut self,
+        branches: &'a [(ExpressionText, Vec<Statement>)],
+        otherwise: &'a [Statement],
+        new: &mut New,
+        doing: &mut Doing<'_>,
+    ) {
+        let outer = doing.when;
+        let before = new.clone();
+        let mut results: Vec<(Option<NodeId>, New)> = Vec::new();
+        let mut remaining = outer;
+        for (condition, statements) in branches {
+            let condition = self.at(doing.setting.reads).condition(condition);
+            doing.when = self.both(remaining, condition);
+            let result = self.branch(statements, &before, doing);
+            results.push((condition, result));
+            let negated = condition.map(|condition| self.graph.not(condition));
+            remaining = self.both(remaining, negated);
+        }
+        doing.when = remaining;
+        let last = self.branch(otherwise, &before, doing);
+        doing.when = outer;
+        let mut merged = last;
+        for (condition, result) in results.into_iter().rev() {
+            merged = self.merge_branches(condition, result, merged);
+        }
+        for (name, value) in &merged.locals {
+            let span = self.symbols.get(name).map(|symbol| symbol.span);
+            if let Some(span) = span {
+                self.symbols.bind(name, SymbolKind::Local, span, value.clone());
+            }
+        }
+        *new = merged;
+    }
+
+    fn both(&mut self, a: Option<NodeId>, b: Option<NodeId>) -> Option<NodeId> {
+        match (a, b) {
+            (Some(a), Some(b)) => Some(self.graph.and(a, b)),
+            (only, None) | (None, only) => only,
+        }
+    }
+
+    fn branch(&mut self, statements: &'a [Statement], before: &New, doing: &mut Doing<'_>) -> New {
+        let mark = self.symbols.enter();
+        let mut new = before.clone();
+        self.statements(statements, &mut new, doing);
+        self.symbols.leave(mark);
+        new
+    }
+
+    fn merge_branches(&mut self, condition: Option<NodeId>, a: New, b: New) -> New {
+        let mut merged = New::default();
+        let ids: BTreeSet<VariableId> = a.values.keys().chain(b.values.keys()).copied().collect();
+        for id in ids {
+            let (of_a, of_b) = (a.values.get(&id), b.values.get(&id));
+            let Some(&(_, span, target)) = of_a.or(of_b) else { continue };
+            let old = self.graph.leaf(Leaf::Variable(id));
+            let node = |of: Option<&(Option<NodeId>, Span, Span)>| of.map_or(Some(old), |(node, ..)| *node);
+            let value = match (condition, node(of_a), node(of_b)) {
+                (Some(c), Some(a), Some(b)) => Some(self.graph.select(c, a, b)),
+                _ => None,
+            };
+            merged.values.insert(id, (value, span, target));
+        }
+        for (name, of_a) in &a.locals {
+            // A local that only one branch assigns has no value behind.
+            let (Some(of_b), Some(c)) = (b.locals.get(name), condition) else { continue };
+            let pairs = of_a.elements.as_slice().iter().zip(of_b.elements.as_slice());
+            let elements: Vec<NodeId> = pairs.map(|(&a, &b)| self.graph.select(c, a, b)).collect();
+            let value = Typed { elements: Elements::from(elements), ..of_a.clone() };
+            merged.locals.insert(name.clone(), value);
+        }
+        merged
+    }
+}
+
+fn name_span(target: &Target) -> Span {
+    target.name.span
+}
+
+/// Names that some `:=` section of a component assigns.
+pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeSet<&str> {
+    let mut names = BTreeSet::new();
+    let mut pending: Vec<&Statement> = Vec::new();
+    let d = declaration;
+    pending.extend(d.update.iter());
+    pending.extend(d.initial.iter());
+    pending.extend(d.locations.iter().flat_map(|l| &l.transitions).flat_map(|t| &t.actions));
+    for event in &d.events {
+        pending.extend(event.rising.iter().chain(&event.falling).flatten());
+    }
+    pending.extend(d.rules.iter().flat_map(|rule| &rule.actions));
+    while let Some(statement) = pending.pop() {
+        match statement {
+            Statement::Assign { target, .. } => {
+                names.insert(target.name.value.as_str());
+            }
+            Statement::If { branches, otherwise } => {
+                pending.extend(branches.iter().flat_map(|(_, statements)| statements));
+                pending.extend(otherwise);
+            }
+            Statement::For(turns) => pending.extend(&turns.items),
+            Statement::Emit(_) | Statement::Hold(_) => {}
+        }
+    }
+    names
+}

@@ -1,0 +1,70 @@
+use super::connections::connect;
+use super::library::{Entry, Library};
+use super::members::{Members, expand_members};
+use crate::checks::{hs0127_declaration_for_another_kind, hs0414_not_connected};
+use crate::component::{Builder, Built, Given, Interface, Shared};
+use crate::declarations::{ComponentDeclaration, ComponentKind, Direction};
+use sophy_ir::{Body, Composite};
+use std::rc::Rc;
+
+/// Analyses a composite: its members, each with its class, and what connects them.
+pub(crate) fn build_composite<'a>(
+    declaration: &'a ComponentDeclaration,
+    library: &mut Library<'a>,
+    shared: &mut Shared<'a>,
+    given: &Given,
+) -> Built {
+    let errors = shared.findings.error_count();
+    let mut builder = Builder::new(declaration, shared, given);
+    builder.check_sections();
+    builder.foreshadow();
+    builder.declare_parameters();
+    let interface = builder.declare_variables();
+    if declaration.kind == ComponentKind::System {
+        for port in interface.ports.iter().filter(|port| port.direction == Direction::Input) {
+            builder.report(hs0127_declaration_for_another_kind::system_input(&port.name, port.span));
+        }
+    }
+    let members = expand_members(&mut builder, library);
+    let before = builder.shared.findings.error_count();
+    let composite = connect(&mut builder, &members, &interface);
+    // A connection with a mistake feeds nothing: what it was to feed would be complained about, too.
+    if builder.shared.findings.error_count() == before {
+        check_connected(&mut builder, &members, &interface, &composite);
+    }
+    builder.check_uses();
+    let composite = Composite { members: members.list, ..composite };
+    builder.finish(Some(Body::Composite(composite)), interface, errors)
+}
+
+/// Complains about inputs of members and outputs of the composite that nothing feeds.
+fn check_connected(
+    builder: &mut Builder<'_, '_>,
+    members: &Members,
+    interface: &Interface,
+    composite: &Composite,
+) {
+    let fed: std::collections::HashSet<sophy_ir::Port> = composite.wires.iter().map(|wire| wire.to).collect();
+    let is_fed = |member: Option<u32>, copy: u32, variable: u32| {
+        fed.contains(&sophy_ir::Port { member, copy, variable: sophy_ir::VariableId(variable) })
+    };
+    for (position, member) in members.list.iter().enumerate() {
+        let entry: &Rc<Entry> = &members.entries[position];
+        let copies: u32 = member.extents.iter().product();
+        for port in entry.interface.ports.iter().filter(|port| port.direction == Direction::Input) {
+            let elements = port.shape.len() as u32;
+            let open = (0..copies)
+                .find(|&copy| (0..elements).any(|k| !is_fed(Some(position as u32), copy, port.first.0 + k)));
+            if let Some(copy) = open {
+                let name = members.full_name(position, copy);
+                let span = member.span.unwrap_or(port.span);
+                builder.report(hs0414_not_connected::input(&name, &port.name, span, port.span));
+            }
+        }
+    }
+    for port in interface.ports.iter().filter(|port| port.direction == Direction::Output) {
+        if (0..port.shape.len() as u32).any(|k| !is_fed(None, 0, port.first.0 + k)) {
+            builder.report(hs0414_not_connected::output(&port.name, port.span));
+        }
+    }
+}

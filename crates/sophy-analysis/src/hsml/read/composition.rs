@@ -1,0 +1,71 @@
+use super::reader::Reader;
+use crate::declarations::{ConnectionItem, MemberDeclaration, MemberItem, PortText};
+use sophy_syntax::ast::{ComponentsItem, Compose, Connection, ConnectionsItem, Instance, Port, View};
+
+impl Reader<'_> {
+    pub(super) fn members(&mut self, items: impl Iterator<Item = ComponentsItem>) -> Vec<MemberItem> {
+        let read = |item| match item {
+            ComponentsItem::Instance(instance) => MemberItem::Member(self.member(&instance)),
+            ComponentsItem::ForLoop(view) => {
+                let items = self.members(view.items());
+                MemberItem::For(self.repeated(&view, items))
+            }
+        };
+        items.map(read).collect()
+    }
+
+    fn member(&mut self, instance: &Instance) -> MemberDeclaration {
+        let arguments = instance.arguments();
+        let parameters = arguments.map(|argument| {
+            (self.name(argument.name(), &argument), self.required(argument.value(), &argument))
+        });
+        MemberDeclaration {
+            name: self.name(instance.name(), instance),
+            parameters: parameters.collect(),
+            indices: self.expressions(instance.indices()),
+            documentation: instance.documentation(),
+            component: self.name(instance.component(), instance),
+            extents: self.expressions(instance.shape()),
+        }
+    }
+
+    pub(super) fn connections(
+        &mut self,
+        items: impl Iterator<Item = ConnectionsItem>,
+    ) -> Vec<ConnectionItem> {
+        let mut connections = Vec::new();
+        for item in items {
+            match item {
+                ConnectionsItem::Connection(view) => connections.extend(self.connection(&view)),
+                ConnectionsItem::Compose(view) => connections.push(self.composition(&view)),
+                ConnectionsItem::ForLoop(view) => {
+                    let items = self.connections(view.items());
+                    connections.push(ConnectionItem::For(self.repeated(&view, items)));
+                }
+            }
+        }
+        connections
+    }
+
+    /// `None` if one end is missing, which the parser has said.
+    fn connection(&mut self, connection: &Connection) -> Option<ConnectionItem> {
+        let (from, to) = (self.port(&connection.source()?), self.port(&connection.target()?));
+        Some(ConnectionItem::Connect { from, to })
+    }
+
+    fn composition(&mut self, compose: &Compose) -> ConnectionItem {
+        ConnectionItem::Compose {
+            span: self.keyword(compose),
+            members: compose.parts().map(|port| self.port(&port)).collect(),
+            matrix: self.required(compose.matrix(), compose),
+        }
+    }
+
+    fn port(&self, port: &Port) -> PortText {
+        let parts = port.parts().into_iter();
+        PortText {
+            parts: parts.map(|part| (self.spanned(part.name), self.expressions(part.indices))).collect(),
+            span: self.span(port.range()),
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The text form of a system: everything with names, in the order of the tables (`--emit system`).
+
+use crate::model::Quantity;
+use crate::system::{FlatReset, FlatTransition, FlatTrigger, Role, Row, System};
+use sophy_field::EventIndex;
+use std::fmt;
+
+impl fmt::Display for System {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "system {}", self.name)?;
+        for p in &self.parameters {
+            writeln!(f, "  parameter {} = {}{}", p.name, self.text(p.value), unit(p.unit.as_ref()))?;
+        }
+        for u in &self.inputs {
+            writeln!(f, "  input {}{}{}", u.name, quantity(u.quantity), unit(u.unit.as_ref()))?;
+        }
+        self.write_states(f)?;
+        for z in &self.algebraics {
+            writeln!(f, "  algebraic {}", z.name)?;
+            self.write_row(f, &z.name, &z.value)?;
+        }
+        for y in &self.outputs {
+            let kind = if y.view { "view" } else { "output" };
+            writeln!(f, "  {kind} {}{}{}", y.name, quantity(y.quantity), unit(y.unit.as_ref()))?;
+            self.write_row(f, &y.name, &y.value)?;
+        }
+        for assignment in &self.initial {
+            self.write_assignment(f, 2, "initial ", assignment)?;
+        }
+        for (index, w) in self.watches.iter().enumerate() {
+            let kind = if w.affine { "affine" } else { "enclosed" };
+            writeln!(f, "  watch w{index} {} ({kind})", self.text(w.difference))?;
+        }
+        for port in &self.event_inputs {
+            writeln!(f, "  event {} -> {}", port.name, self.receivers_text(&port.receivers))?;
+        }
+        self.write_automata(f)?;
+        self.awaits.iter().try_for_each(|awaited| writeln!(f, "  awaits: {awaited}"))
+    }
+}
+
+impl System {
+    fn write_states(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, s) in self.states.iter().enumerate() {
+            let kind = if s.discrete { "discrete state" } else { "state" };
+            let mut initial = s.initial.map(|i| format!(" := {}", self.text(i))).unwrap_or_default();
+            if let Some(flag) = s.sign_of {
+                initial = format!(" := side of {}", self.text(flag));
+            }
+            let texts: Vec<String> =
+                s.choices.iter().filter_map(|&n| Some(format!("{n} {:?}", self.texts.get(n)?))).collect();
+            let choices = if texts.is_empty() { String::new() } else { format!(" {{{}}}", texts.join(", ")) };
+            let (quantity, unit) = (quantity(s.quantity), unit(s.unit.as_ref()));
+            writeln!(f, "  {kind} x{index} {}{quantity}{choices}{initial}{unit}", s.name)?;
+            if !s.discrete {
+                self.write_row(f, &format!("der({})", s.name), &s.rate)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_row(&self, f: &mut fmt::Formatter<'_>, left: &str, row: &Row) -> fmt::Result {
+        if row.is_constant() {
+            return match row.by_location.first() {
+                Some(&node) => writeln!(f, "    {left} = {}", self.text(node)),
+                None => Ok(()),
+            };
+        }
+        let Some(owner) = self.automata.get(row.owner.position()) else { return Ok(()) };
+        for (location, &node) in owner.locations.iter().zip(&row.by_location) {
+            writeln!(f, "    {}: {left} = {}", location.name, self.text(node))?;
+        }
+        Ok(())
+    }
+
+    fn write_automata(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, a) in self.automata.iter().enumerate() {
+            let role = match a.role {
+                Role::Component => "",
+                Role::Flag => " (sides of a flag)",
+                Role::Owner => " (no locations)",
+            };
+            writeln!(f, "  automaton a{index} {}{role}", a.name)?;
+            for (position, location) in a.locations.iter().enumerate() {
+                let initial = match a.role {
+                    Role::Component if a.initial.position() == position => " (initial)",
+                    Role::Owner => continue,
+                    _ => "",
+                };
+                writeln!(f, "    location {}{initial}", location.name)?;
+                for t in &location.transitions {
+                    let Some(t) = self.transitions.get(t.position()) else { continue };
+                    let to = a.locations.get(t.destination.position()).map_or("?", |l| l.name.as_str());
+                    self.write_transition(f, t, to)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn write_transition(&self, f: &mut fmt::Formatter<'_>, t: &FlatTransition, to: &str) -> fmt::Result {
+        let priority = if t.priority == 0 { String::new() } else { format!(" priority {}", t.priority) };
+        let silent = if t.silent { " (silent)" } else { "" };
+        writeln!(f, "      {} {}{priority} -> {to}{silent}", t.name, self.trigger_text(&t.trigger))?;
+        for reset in &t.resets {
+            self.write_assignment(f, 8, "", reset)?;
+        }
+        for emission in &t.emits {
+            let when = emission.when.map(|w| format!(" if {}", self.text(w))).unwrap_or_default();
+            writeln!(f, "        emit {}{when}", emission.label)?;
+        }
+        Ok(())
+    }
+
+    fn write_assignment(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        indent: usize,
+        what: &str,
+        reset: &FlatReset,
+    ) -> fmt::Result {
+        let state = self.states.get(reset.state.position()).map_or("?", |state| state.name.as_str());
+        writeln!(f, "{:indent$}{what}{state} := {}", "", self.text(reset.value))
+    }
+
+    fn receivers_text(&self, receivers: &[EventIndex]) -> String {
+        let names = receivers.iter().filter_map(|e| self.events.get(e.position()));
+        names.map(|event| event.name.as_str()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// `when GUARD` or `on EVENT when GUARD`.
+    pub fn trigger_text(&self, trigger: &FlatTrigger) -> String {
+        match trigger {
+            FlatTrigger::When(guard) => format!("when {}", self.text(*guard)),
+            FlatTrigger::On { events, guard } => {
+                let guard = guard.map(|g| format!(" when {}", self.text(g))).unwrap_or_default();
+                format!("on {}{guard}", self.receivers_text(events))
+            }
+        }
+    }
+}
+
+fn unit(unit: Option<&String>) -> String {
+    unit.map(|u| format!(" \"{u}\"")).unwrap_or_default()
+}
+
+fn quantity(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Real => "",
+        Quantity::Integer => " : integer",
+        Quantity::Boolean => " : boolean",
+        Quantity::Text => " : string",
+    }
+}

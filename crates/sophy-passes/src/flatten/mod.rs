@@ -1,0 +1,97 @@
+//! Instances side by side become one system: variables get indices, inputs become what feeds them, values are
+//! written out where they are read, event sections become small automata of their own.
+//!
+//! Nothing here recurses over a model, and the work is that of what comes out: facts about a class are found
+//! once, copies replay them.
+
+mod automata;
+mod awaits;
+mod conditions;
+mod copy;
+mod error;
+mod events;
+mod facts;
+mod initial;
+mod parameters;
+mod smooth;
+mod tree;
+mod values;
+mod variables;
+
+pub use error::{FlattenError, LoopEquation};
+
+use awaits::Part;
+use copy::Scratch;
+use facts::Facts;
+use sophy_field::{AutomatonIndex, StateIndex};
+use sophy_ir::{Model, NodeId, System};
+use std::collections::HashMap;
+use tree::Tree;
+
+/// The flat system of a model; kinks are still as written.
+///
+/// # Errors
+/// [`FlattenError`] if something depends on itself.
+pub fn flatten(model: &Model) -> Result<System, FlattenError> {
+    let facts: Vec<Facts> = model.classes.iter().map(Facts::new).collect();
+    let tree = Tree::new(model, &facts);
+    let mut flattener = Flattener::new(&tree);
+    flattener.parameters()?;
+    flattener.variables();
+    flattener.events();
+    flattener.outputs()?;
+    flattener.states()?;
+    flattener.automata();
+    flattener.initial()?;
+    flattener.awaited_parts();
+    let mut system = flattener.system;
+    smooth::confine_smooth(model, &mut system);
+    Ok(system)
+}
+
+struct Flattener<'a> {
+    tree: &'a Tree<'a>,
+    system: System,
+    /// Per variable of a place: the leaf of a parameter.
+    parameters: Vec<Option<NodeId>>,
+    /// Per slot: what it has become.
+    nodes: Vec<Option<NodeId>>,
+    /// Per slot: whether it is being resolved.
+    open: Vec<bool>,
+    /// Per slot: the wire that feeds it, in the composite it belongs to.
+    wires: Vec<Option<u32>>,
+    /// Per instance: its automaton; composites have none.
+    automaton_of: Vec<Option<AutomatonIndex>>,
+    /// Per instance that has input events: the first of them.
+    first_event: Vec<u32>,
+    /// Per class: what was copied last.
+    scratch: Vec<Scratch>,
+    pending: Vec<NodeId>,
+    /// `location_index` as others see it, by instance.
+    location_numbers: HashMap<u32, NodeId>,
+    /// The flag that assigns a mode without value at the start; `None` if several do.
+    flag_of: HashMap<StateIndex, Option<NodeId>>,
+    /// What cannot be run yet and is read as a value or condition, by place.
+    awaited: HashMap<(u32, Part), NodeId>,
+}
+
+impl<'a> Flattener<'a> {
+    fn new(tree: &'a Tree<'a>) -> Self {
+        let model = tree.model;
+        Flattener {
+            system: System { name: model.name().to_owned(), texts: model.texts.clone(), ..System::default() },
+            parameters: vec![None; tree.place_variables as usize],
+            nodes: vec![None; tree.slots as usize],
+            open: vec![false; tree.slots as usize],
+            wires: vec![None; tree.slots as usize],
+            automaton_of: vec![None; tree.instances.len()],
+            first_event: vec![0; tree.instances.len()],
+            scratch: model.classes.iter().map(|_| Scratch::default()).collect(),
+            pending: Vec::new(),
+            location_numbers: HashMap::new(),
+            flag_of: HashMap::new(),
+            awaited: HashMap::new(),
+            tree,
+        }
+    }
+}

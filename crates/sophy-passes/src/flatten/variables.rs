@@ -1,0 +1,86 @@
+//! Wires, states and open inputs get their places before any expression is copied.
+
+use super::Flattener;
+use super::facts::Becomes;
+use super::tree::prefixed;
+use sophy_field::{AutomatonIndex, InputIndex, StateIndex};
+use sophy_ir::{Body, Input, Leaf, Origin, Row, State, VariableId, VariableKind};
+
+impl Flattener<'_> {
+    pub(super) fn variables(&mut self) {
+        self.wire_up();
+        self.number_automata();
+        for &instance in &self.tree.order {
+            let (at, class, facts) =
+                (self.tree.instance(instance), self.tree.class(instance), self.tree.facts(instance));
+            let name = self.tree.name(instance);
+            let owner = self.owner(instance);
+            for (position, (variable, becomes)) in class.variables.iter().zip(&facts.becomes).enumerate() {
+                let slot = at.base as usize + position;
+                let origin = Origin { class: at.class, variable: VariableId(position as u32) };
+                let leaf = match becomes {
+                    Becomes::State(_) => {
+                        let index = StateIndex::new(self.system.states.len());
+                        let continuous = matches!(class.body, Body::Automaton(_))
+                            && matches!(variable.kind, VariableKind::State(_));
+                        self.system.states.push(State {
+                            name: prefixed(&name, &variable.name),
+                            unit: variable.unit.clone(),
+                            quantity: variable.quantity,
+                            discrete: !continuous,
+                            choices: variable.choices.clone(),
+                            initial: None,
+                            sign_of: None,
+                            origin,
+                            rate: Row { owner, by_location: Vec::new(), spans: Vec::new() },
+                            span: variable.span,
+                        });
+                        Leaf::State(index)
+                    }
+                    Becomes::Input if self.wires[slot].is_none() => {
+                        let index = InputIndex::new(self.system.inputs.len());
+                        self.system.inputs.push(Input {
+                            name: prefixed(&name, &variable.name),
+                            unit: variable.unit.clone(),
+                            quantity: variable.quantity,
+                            origin,
+                            span: variable.span,
+                        });
+                        Leaf::Input(index)
+                    }
+                    _ => continue,
+                };
+                self.nodes[slot] = Some(self.system.graph.leaf(leaf));
+            }
+        }
+    }
+
+    fn wire_up(&mut self) {
+        for &composite in &self.tree.order {
+            let Body::Composite(body) = &self.tree.class(composite).body else { continue };
+            for (wire, one) in body.wires.iter().enumerate() {
+                let (instance, slot) = self.tree.port(composite, one.to);
+                self.wires[(self.tree.instance(instance).base + slot) as usize] = Some(wire as u32);
+            }
+        }
+    }
+
+    /// Every component that is no composite has an automaton, followed by one per event section.
+    fn number_automata(&mut self) {
+        let mut next = 0;
+        for &instance in &self.tree.order {
+            let sections = match &self.tree.class(instance).body {
+                Body::Composite(_) => continue,
+                Body::Discrete(_) => 0,
+                Body::Automaton(automaton) => automaton.events.len(),
+            };
+            self.automaton_of[instance as usize] = Some(AutomatonIndex::new(next));
+            next += 1 + sections;
+        }
+    }
+
+    /// The automaton whose location selects the rows of an instance.
+    pub(super) fn owner(&self, instance: u32) -> AutomatonIndex {
+        self.automaton_of[instance as usize].unwrap_or(AutomatonIndex(0))
+    }
+}

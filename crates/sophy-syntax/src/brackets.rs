@@ -1,0 +1,133 @@
+use crate::error::{SyntaxError, codes};
+use crate::kinds::SyntaxKind;
+use crate::lexer::{Mode, Token, unknown};
+use std::ops::Range;
+
+/// Reports brackets without partner; one that closes nothing becomes trivia.
+///
+/// Returns for each token the first from it on that ends a statement: in a file, brackets do not reach beyond.
+pub(crate) fn match_brackets(
+    text: &str,
+    mode: Mode,
+    tokens: &mut [Token],
+    errors: &mut Vec<SyntaxError>,
+) -> Vec<usize> {
+    let mut open: Vec<(SyntaxKind, Range<usize>)> = Vec::new();
+    let mut first: Option<Range<usize>> = None;
+    let mut ends = Vec::new();
+    for index in 0..tokens.len() {
+        let (kind, range) = (tokens[index].kind, tokens[index].range.clone());
+        if kind.is_trivia() {
+            continue;
+        }
+        let in_vector = matches!(open.last(), Some((SyntaxKind::LeftBracket, _)));
+        if mode == Mode::File && ends_statement(kind) && !(in_vector && is_row_end(&tokens[index..])) {
+            unclosed(text, open.drain(..), errors);
+            ends.push(index);
+            first = None;
+            continue;
+        }
+        let start = first.get_or_insert_with(|| range.clone()).clone();
+        match kind {
+            SyntaxKind::Semicolon if mode == Mode::Expression && !in_vector => {
+                tokens[index].kind = SyntaxKind::Unknown;
+                errors.push(unknown(";", &range, mode));
+            }
+            SyntaxKind::LeftParenthesis | SyntaxKind::LeftBracket | SyntaxKind::LeftBrace => {
+                open.push((kind, range));
+            }
+            _ => {
+                let Some(opening) = opening_of(kind) else { continue };
+                match open.iter().rposition(|(kind, _)| *kind == opening) {
+                    Some(at) => {
+                        unclosed(text, open.drain(at + 1..), errors);
+                        open.truncate(at);
+                    }
+                    None => {
+                        tokens[index].kind = SyntaxKind::Unknown;
+                        errors.push(unmatched(text, range, start));
+                    }
+                }
+            }
+        }
+    }
+    unclosed(text, open.drain(..), errors);
+    let mut next = tokens.len();
+    let mut statement_ends = vec![next; tokens.len()];
+    for (index, end) in statement_ends.iter_mut().enumerate().rev() {
+        if ends.last() == Some(&index) {
+            next = index;
+            ends.pop();
+        }
+        *end = next;
+    }
+    statement_ends
+}
+
+/// `;` and the words that cannot be part of an expression.
+fn ends_statement(kind: SyntaxKind) -> bool {
+    kind == SyntaxKind::Semicolon || (kind.word().is_some() && kind != SyntaxKind::InKeyword)
+}
+
+/// Whether the `;` at the start of `tokens`, after an open `[`, is meant to end a row of a matrix, as in other
+/// languages, rather than a statement.
+fn is_row_end(tokens: &[Token]) -> bool {
+    use SyntaxKind as K;
+    let mut kinds = tokens.iter().map(|token| token.kind).filter(|kind| !kind.is_trivia());
+    if kinds.next() != Some(K::Semicolon) {
+        return false;
+    }
+    match (kinds.next(), kinds.next()) {
+        (Some(K::Number | K::Minus | K::Plus | K::LeftParenthesis | K::LeftBracket), _) => true,
+        (Some(K::Name), Some(next)) => {
+            matches!(next, K::Comma | K::RightBracket | K::Plus | K::Minus | K::Star | K::Slash | K::Caret)
+        }
+        _ => false,
+    }
+}
+
+fn opening_of(kind: SyntaxKind) -> Option<SyntaxKind> {
+    match kind {
+        SyntaxKind::RightParenthesis => Some(SyntaxKind::LeftParenthesis),
+        SyntaxKind::RightBracket => Some(SyntaxKind::LeftBracket),
+        SyntaxKind::RightBrace => Some(SyntaxKind::LeftBrace),
+        _ => None,
+    }
+}
+
+/// The bracket at `range` closes nothing; what it could belong to starts at `first`.
+fn unmatched(text: &str, range: Range<usize>, first: Range<usize>) -> SyntaxError {
+    let bracket = &text[range.clone()];
+    let opening = match bracket {
+        "]" => "[",
+        "}" => "{",
+        _ => "(",
+    };
+    let before = if first.start < range.start {
+        format!(", or add a `{opening}` before `{}`", &text[first])
+    } else {
+        String::new()
+    };
+    SyntaxError::new(codes::UNMATCHED, range, format!("unmatched `{bracket}`"))
+        .help(format!("delete it{before}"))
+}
+
+fn unclosed(
+    text: &str,
+    mut open: impl Iterator<Item = (SyntaxKind, Range<usize>)>,
+    errors: &mut Vec<SyntaxError>,
+) {
+    let Some((kind, range)) = open.next() else { return };
+    let closing = match kind {
+        SyntaxKind::LeftBracket => ']',
+        SyntaxKind::LeftBrace => '}',
+        _ => ')',
+    };
+    let bracket = &text[range.clone()];
+    let mut error = SyntaxError::new(codes::UNCLOSED, range, format!("`{bracket}` is never closed"))
+        .help(format!("add a `{closing}` where the part ends, or delete the `{bracket}`"));
+    for (_, further) in open.take(3) {
+        error = error.related(further, "nor is this one");
+    }
+    errors.push(error);
+}

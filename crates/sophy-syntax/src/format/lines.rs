@@ -1,0 +1,93 @@
+use super::WIDTH;
+
+/// A token on a line.
+pub(super) struct Piece {
+    pub(super) text: String,
+    /// Whether a space stands before it.
+    pub(super) space: bool,
+    /// Whether a line that is too long may go on here; breaks of less depth are taken first.
+    pub(super) depth: Option<usize>,
+    /// Whether all breaks of this depth are taken: the rows of a matrix.
+    pub(super) all: bool,
+    /// The comments after it, inside of an item.
+    pub(super) comments: Vec<Comment>,
+}
+
+impl Piece {
+    fn width(&self) -> usize {
+        self.text.chars().count() + usize::from(self.space)
+    }
+}
+
+/// A comment.
+pub(super) struct Comment {
+    pub(super) text: String,
+    /// Whether it stands on a line of its own.
+    pub(super) own_line: bool,
+    /// Whether a blank line stands before it.
+    pub(super) after_blank: bool,
+}
+
+/// Writes the pieces of an item, on as many lines as they need; the last line is not ended.
+pub(super) fn write(out: &mut String, pieces: &[Piece], indent: usize) {
+    let further = indent + 4;
+    let chunks = pieces.split_inclusive(|piece| !piece.comments.is_empty());
+    for (index, chunk) in chunks.enumerate() {
+        if index > 0 {
+            out.push('\n');
+        }
+        fit(out, chunk, if index == 0 { indent } else { further }, further);
+        for comment in chunk.last().iter().flat_map(|piece| &piece.comments) {
+            if comment.own_line {
+                out.push('\n');
+                spaces(out, further);
+            } else {
+                out.push_str("  ");
+            }
+            out.push_str(&comment.text);
+        }
+    }
+}
+
+pub(super) fn spaces(out: &mut String, number: usize) {
+    out.extend(std::iter::repeat_n(' ', number));
+}
+
+fn width(pieces: &[Piece]) -> usize {
+    pieces.iter().map(Piece::width).sum()
+}
+
+/// Writes `pieces`, the first line with `indent`, those after it with `further`.
+fn fit(out: &mut String, pieces: &[Piece], indent: usize, further: usize) {
+    let breaks = pieces.iter().skip(1).filter_map(|piece| piece.depth);
+    let Some(depth) = breaks.min().filter(|_| indent + width(pieces) > WIDTH) else {
+        line(out, pieces, indent);
+        return;
+    };
+    let here = |piece: &Piece| piece.depth == Some(depth);
+    let all = pieces.iter().skip(1).any(|piece| here(piece) && piece.all);
+    let (mut start, mut end, mut used, mut indent) = (0, 0, 0, indent);
+    while end < pieces.len() {
+        let part = end + 1 + pieces.iter().skip(end + 1).position(here).unwrap_or(pieces.len() - end - 1);
+        let part_width = width(pieces.get(end..part).unwrap_or(&[]));
+        if end > start && (all || indent + used + part_width > WIDTH) {
+            fit(out, pieces.get(start..end).unwrap_or(&[]), indent, further);
+            out.push('\n');
+            indent = if all { indent.max(further) + usize::from(start == 0) } else { further };
+            (start, used) = (end, 0);
+        }
+        used += part_width;
+        end = part;
+    }
+    fit(out, pieces.get(start..).unwrap_or(&[]), indent, further);
+}
+
+fn line(out: &mut String, pieces: &[Piece], indent: usize) {
+    spaces(out, indent);
+    for (index, piece) in pieces.iter().enumerate() {
+        if piece.space && index > 0 {
+            out.push(' ');
+        }
+        out.push_str(&piece.text);
+    }
+}
