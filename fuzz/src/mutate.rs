@@ -9,7 +9,8 @@ const LONGEST: usize = 100_000;
 /// One input in so many is long.
 const LONG_ONCE_IN: usize = 2000;
 
-const SPACES: &[&str] = &["", " ", "\n", "\r\n", "\n\n\n", "\t", " % c\n", "%% d\n", "\n% c\n\n", "  ", "\r", "\u{feff}"];
+const SPACES: &[&str] =
+    &["", " ", "\n", "\r\n", "\n\n\n", "\t", " % c\n", "%% d\n", "\n% c\n\n", "  ", "\r", "\u{feff}"];
 
 /// What opens a level, what may stand inside, what closes it.
 const HSML_NESTS: &[[&str; 3]] = &[
@@ -70,7 +71,8 @@ const XML_NESTS: &[[&str; 3]] = &[
 const STRANGE: &[&str] =
     &["é", "😀", "\u{feff}", "\u{a0}", "\u{0}", "\u{2028}", "e\u{301}", "\u{10ffff}", "√", "\u{202e}", "ß"];
 
-const INVALID: &[&[u8]] = &[b"\xff", b"\xc0\x80", b"\xed\xa0\x80", b"\xe2\x82", b"\xf0\x9f\x98", b"\x80", b"\xfe\xff"];
+const INVALID: &[&[u8]] =
+    &[b"\xff", b"\xc0\x80", b"\xed\xa0\x80", b"\xe2\x82", b"\xf0\x9f\x98", b"\x80", b"\xfe\xff"];
 
 /// Input `index` of the campaign `seed`. The first inputs are the files of the corpus as they are.
 pub(crate) fn input(corpus: &Corpus, seed: u64, index: u64) -> Vec<u8> {
@@ -250,7 +252,9 @@ fn change_bytes(text: &mut Vec<u8>, random: &mut Random) {
                 let little = random.once_in(2);
                 let units = String::from_utf8_lossy(text).encode_utf16().collect::<Vec<u16>>();
                 let units = std::iter::once(0xfeff).chain(units);
-                *text = units.flat_map(|unit| if little { unit.to_le_bytes() } else { unit.to_be_bytes() }).collect();
+                *text = units
+                    .flat_map(|unit| if little { unit.to_le_bytes() } else { unit.to_be_bytes() })
+                    .collect();
             }
         }
         _ => drop(text.splice(0..0, *b"\xef\xbb\xbf")),

@@ -55,7 +55,12 @@ pub(crate) enum Command {
     #[command(after_help = CHECK_EXAMPLES)]
     Check(Check),
     /// Show what a model consists of
-    #[command(after_help = "Example: sophy info hopper.hsml")]
+    #[command(after_help = "\
+Examples:
+  sophy info hopper.hsml                        states, locations, dependencies …
+  sophy info hopper.hsml --draw hopper.svg      its hybrid automaton
+  sophy info missile.hsml --draw missile.svg    its members and connections
+  sophy info missile.hsml --draw relay.svg --component relay")]
     Info(Info),
     /// Write a model to begin with: a template of a component, a system or an experiment
     #[command(after_help = NEW_EXAMPLES)]
@@ -239,6 +244,18 @@ pub(crate) struct Check {
 pub(crate) struct Info {
     /// The model (.hsml, .xml), or an experiment (.toml) that names it
     pub(crate) file: PathBuf,
+    /// The component that is to run [default: the SYSTEM of the file, or its only component]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) system: Option<String>,
+    /// Print long lists in full
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// Draw it instead: .svg, .png, or .dot for Graphviz (repeatable)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) draw: Vec<PathBuf>,
+    /// Draw this component, such as relay or left.pump
+    #[arg(long, value_name = "NAME", requires = "draw")]
+    pub(crate) component: Option<String>,
 }
 
 #[derive(Debug, Args)]

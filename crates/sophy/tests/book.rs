@@ -106,7 +106,9 @@ fn every_code_has_its_line() {
     let rows: Vec<(String, String)> = page
         .lines()
         .filter_map(|line| {
-            let (code, text) = line.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | ")?;
+            let (link, text) = line.strip_prefix("| [")?.strip_suffix(" |")?.split_once(" | ")?;
+            let (code, target) = link.split_once("](messages/")?;
+            assert!(target.ends_with(&format!(".md#{})", code.to_lowercase())), "{line}");
             is_code(code).then(|| (code.to_owned(), text.to_owned()))
         })
         .collect();
@@ -118,9 +120,14 @@ fn every_code_has_its_line() {
     sorted.sort_unstable();
     assert_eq!(sorted, in_sources, "codes of messages.md (left) and of the sources (right)");
     let said: BTreeMap<String, String> = rows.iter().cloned().collect();
-    for (code, kind) in sophy_analysis::CODES.iter().chain(sophy_xml::CODES) {
+    let crates = [sophy_analysis::CODES, sophy_analysis::HSML_CODES, sophy_xml::CODES];
+    for (code, kind) in crates.into_iter().flatten() {
         assert_eq!(said[code.0], *kind, "{code}");
     }
+    // The index repeats the pages, in their order.
+    let pages: Vec<(String, String)> =
+        sophy::pages().map(|page| (page.code.to_owned(), page.title.to_owned())).collect();
+    assert_eq!(rows, pages);
     for (code, kind) in syntax_codes() {
         assert_eq!(said[&code], kind, "{code}");
     }

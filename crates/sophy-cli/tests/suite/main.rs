@@ -4,6 +4,10 @@
 
 #[cfg(unix)]
 mod endings;
+mod explain;
+mod languages;
+mod layout;
 mod messages;
 mod results;
 mod support;
+mod templates;
