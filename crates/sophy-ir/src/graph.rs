@@ -1,7 +1,8 @@
 use crate::arithmetic::{Binary, Comparison, Unary, integer_power};
 use crate::model::VariableId;
 use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
-use std::collections::{HashMap, HashSet};
+use rustc_hash::FxBuildHasher;
+use std::hash::BuildHasher;
 
 /// A node of a [`Graph`]. Equal expressions of one graph have equal ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -69,7 +70,9 @@ pub enum Node {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    known: HashMap<Node, NodeId>,
+    /// Where to find a node: its position + 1 at the place of its hash or behind (open addressing), 0 where
+    /// there is none. The length is a power of two.
+    known: Vec<u32>,
 }
 
 impl Graph {
@@ -90,13 +93,34 @@ impl Graph {
     }
 
     fn intern(&mut self, node: Node) -> NodeId {
-        if let Some(&id) = self.known.get(&node) {
-            return id;
+        if 4 * self.nodes.len() >= 3 * self.known.len() {
+            self.grow();
+        }
+        let mask = self.known.len() - 1;
+        let mut at = FxBuildHasher.hash_one(node) as usize & mask;
+        while let Some(position) = self.known[at].checked_sub(1) {
+            if self.nodes[position as usize] == node {
+                return NodeId(position);
+            }
+            at = (at + 1) & mask;
         }
         let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
         self.nodes.push(node);
-        self.known.insert(node, id);
+        self.known[at] = id.0.saturating_add(1);
         id
+    }
+
+    fn grow(&mut self) {
+        let length = (2 * self.known.len()).max(16);
+        let mut known = vec![0; length];
+        for (position, node) in (1..).zip(&self.nodes) {
+            let mut at = FxBuildHasher.hash_one(node) as usize & (length - 1);
+            while known[at] != 0 {
+                at = (at + 1) & (length - 1);
+            }
+            known[at] = position;
+        }
+        self.known = known;
     }
 
     /// The number of a node, if it is one.
@@ -244,43 +268,6 @@ impl Graph {
                 visit(b);
             }
         }
-    }
-
-    /// All nodes that `roots` need, operands before users, each once. The work is that of what is found, not
-    /// of the whole graph.
-    pub fn reachable(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
-        let mut seen: HashSet<NodeId> = HashSet::new();
-        let mut pending: Vec<NodeId> = roots.into_iter().collect();
-        while let Some(id) = pending.pop() {
-            if seen.insert(id) {
-                self.operands(id, |operand| pending.push(operand));
-            }
-        }
-        let mut found: Vec<NodeId> = seen.into_iter().collect();
-        found.sort_unstable();
-        found
-    }
-
-    /// Copies `root` of `from` into this graph, leaves replaced by `replace` (their nodes in this graph).
-    pub fn import(
-        &mut self,
-        from: &Graph,
-        root: NodeId,
-        replace: &mut impl FnMut(&mut Graph, Leaf) -> NodeId,
-    ) -> NodeId {
-        let mut copied: HashMap<NodeId, NodeId> = HashMap::new();
-        for id in from.reachable([root]) {
-            let get = |operand: NodeId| copied[&operand];
-            let copy = match from.node(id) {
-                Node::Leaf(leaf) => replace(self, leaf),
-                other => {
-                    let mapped = other.map(get);
-                    self.rebuild(mapped)
-                }
-            };
-            copied.insert(id, copy);
-        }
-        copied[&root]
     }
 
     /// Builds a node through the folding constructors.

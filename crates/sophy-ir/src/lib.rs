@@ -1,7 +1,7 @@
 //! The representations between text and callable equations, with their text forms and verifiers.
 //!
 //! - [`Graph`]: hash-consed expressions; [`Graph::derivative`], [`Graph::affine`],
-//!   [`Graph::dependencies`], [`evaluate`].
+//!   [`Graph::dependencies`], [`evaluate`]; for large systems [`Importer`], [`Reach`], [`Linearity`].
 //! - [`Model`]: what was written: components with their variables, locations and transitions, and how they
 //!   are connected.
 //! - [`System`]: what is run: one flat hybrid system whose names are typed indices.
@@ -16,14 +16,19 @@ mod derivative;
 mod display;
 mod evaluate;
 mod graph;
+mod import;
+mod linearity;
 mod model;
 mod model_text;
 mod system;
 
 pub use affine::Affine;
 pub use arithmetic::{Binary, Comparison, Unary};
-pub use evaluate::{Value, evaluate};
+pub use dependencies::Reach;
+pub use evaluate::{Evaluator, Value, evaluate};
 pub use graph::{Graph, Leaf, Node, NodeId};
+pub use import::Importer;
+pub use linearity::Linearity;
 pub use model::{
     Component, ComponentIndex, Connection, Equation, EventConnection, Location, Model, Port, Reset,
     Transition, Trigger, Variable, VariableId, VariableKind,
