@@ -1,4 +1,6 @@
-use crate::{AutomatonIndex, EventIndex, Formula, LocationIndex, StateIndex, TransitionIndex, WatchIndex};
+use crate::{
+    AutomatonIndex, EventIndex, Formula, LocationIndex, StateIndex, Table, TransitionIndex, WatchIndex,
+};
 use sophy_segment::Sign;
 
 /// The compiled transitions of a system.
@@ -11,7 +13,7 @@ pub struct Logic {
     /// Per event: the automaton that receives it.
     pub receivers: Vec<AutomatonIndex>,
     /// Per watch: the automata whose guards read it.
-    pub automata_of_watch: Vec<Vec<AutomatonIndex>>,
+    pub automata_of_watch: Table<AutomatonIndex>,
 }
 
 /// A transition τ = (q₁, q₂, j, r, e_in, e_out), thesis definition 8.5.

@@ -87,6 +87,11 @@ impl Graph {
         self.nodes.len()
     }
 
+    /// All nodes, operands before users.
+    pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
+        (0..u32::try_from(self.nodes.len()).unwrap_or(u32::MAX)).map(NodeId)
+    }
+
     /// Whether nothing was built yet.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
