@@ -1,5 +1,6 @@
 use crate::error::HybridError;
 use crate::livelock::Livelock;
+use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
     Changes, Engine, Equations, EventIndex, Journal, Logic, Record, TransitionIndex, TriggerCode, WatchIndex,
@@ -37,10 +38,11 @@ pub struct Counts {
 /// they count while they hold, also on entry and at the start.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Events waiting, per automaton.
+    /// Events waiting, per automaton, and the automata for which some wait.
     queues: Vec<VecDeque<EventIndex>>,
+    waiting: Worklist,
     /// Automata whose guards must be looked at.
-    stale: Vec<bool>,
+    stale: Worklist,
     zeno: Vec<Zeno>,
     /// Memory for resets.
     memory: Vec<f64>,
@@ -58,7 +60,8 @@ impl Control {
         let automata = logic.outgoing.len();
         Control {
             queues: vec![VecDeque::new(); automata],
-            stale: vec![true; automata],
+            waiting: Worklist::empty(automata),
+            stale: Worklist::full(automata),
             zeno: vec![Zeno::default(); automata],
             memory: equations.image.clone(),
             changed: Vec::new(),
@@ -71,7 +74,9 @@ impl Control {
 
     /// An event from outside, delivered by the next [`Control::react`].
     pub fn post(&mut self, logic: &Logic, event: EventIndex) {
-        self.queues[logic.receivers[event.position()].position()].push_back(event);
+        let receiver = logic.receivers[event.position()];
+        self.queues[receiver.position()].push_back(event);
+        self.waiting.insert(receiver);
     }
 
     /// Counts since the start.
@@ -112,6 +117,7 @@ impl Control {
                 break;
             }
             journal.push(Record::Jump { time: t, step });
+            self.changes.clear();
             if !self.chosen.is_empty() {
                 self.collect_changes(engine, e, logic, t);
                 engine.change(e, t, &self.changes, journal)?;
@@ -120,7 +126,7 @@ impl Control {
                 let transition = self.chosen[k];
                 let code = &logic.transitions[transition.position()];
                 taken.push(Taken { time: t, step, transition });
-                self.stale[code.automaton.position()] = true;
+                self.stale.insert(code.automaton);
                 self.counts.transitions += 1;
                 for &event in &code.emits {
                     self.post(logic, event);
@@ -129,7 +135,7 @@ impl Control {
                 accumulation = accumulation.or(zeno);
             }
             step += 1;
-            if let Some(cycle) = livelock.after(step, engine, e, t, &self.queues, &taken[before..]) {
+            if let Some(cycle) = livelock.after(step, engine, e, t, &self.queues, &self.changes, &taken[before..]) {
                 return Err(HybridError::Livelock { time: t, steps: step, cycle, exact: true });
             }
             if step >= self.most_steps {
@@ -147,8 +153,8 @@ impl Control {
         self.changed.clear();
         engine.take_changed(&mut self.changed);
         for watch in &self.changed {
-            for automaton in &logic.automata_of_watch[watch.position()] {
-                self.stale[automaton.position()] = true;
+            for &automaton in logic.automata_of_watch.row(watch.position()) {
+                self.stale.insert(automaton);
             }
         }
     }
@@ -156,43 +162,41 @@ impl Control {
     /// Group 1: of each automaton the first transition whose guard holds; of these, those of the smallest
     /// priority number. Automata that wait for a more urgent one stay marked.
     fn choose_enabled(&mut self, engine: &dyn Engine, logic: &Logic) {
-        self.chosen.clear();
+        let chosen = &mut self.chosen;
+        chosen.clear();
         let mut least = i32::MAX;
-        for automaton in 0..self.stale.len() {
-            if !self.stale[automaton] {
-                continue;
-            }
-            let location = engine.locations()[automaton].position();
-            let outgoing = &logic.outgoing[automaton][location];
+        self.stale.retain(|automaton| {
+            let location = engine.locations()[automaton.position()].position();
+            let outgoing = &logic.outgoing[automaton.position()][location];
             let first = outgoing.iter().copied().find(|transition| {
                 match &logic.transitions[transition.position()].trigger {
                     TriggerCode::When(guard) => guard.holds(|watch| engine.sign(watch)),
                     TriggerCode::On(..) => false,
                 }
             });
-            let Some(transition) = first else {
-                self.stale[automaton] = false;
-                continue;
-            };
+            let Some(transition) = first else { return false };
             let priority = logic.transitions[transition.position()].priority;
             if priority < least {
-                self.chosen.clear();
+                chosen.clear();
                 least = priority;
             }
             if priority == least {
-                self.chosen.push(transition);
+                chosen.push(transition);
             }
-        }
+            true
+        });
     }
 
     /// Group 2: every automaton takes one waiting event; `false` if none waits.
     fn choose_by_event(&mut self, engine: &dyn Engine, logic: &Logic) -> bool {
+        let (queues, chosen, counts) = (&mut self.queues, &mut self.chosen, &mut self.counts);
         let mut any = false;
-        for automaton in 0..self.queues.len() {
-            let Some(event) = self.queues[automaton].pop_front() else { continue };
+        self.waiting.retain(|automaton| {
+            let queue = &mut queues[automaton.position()];
+            let Some(event) = queue.pop_front() else { return false };
             any = true;
-            let location = engine.locations()[automaton].position();
-            let waiting = logic.outgoing[automaton][location].iter().copied().find(|transition| match &logic
+            let location = engine.locations()[automaton.position()].position();
+            let waiting = logic.outgoing[automaton.position()][location].iter().copied().find(|transition| match &logic
                 .transitions[transition.position()]
             .trigger
             {
@@ -202,16 +206,16 @@ impl Control {
                 TriggerCode::When(_) => false,
             });
             match waiting {
-                Some(transition) => self.chosen.push(transition),
-                None => self.counts.unused_events += 1,
+                Some(transition) => chosen.push(transition),
+                None => counts.unused_events += 1,
             }
-        }
+            !queue.is_empty()
+        });
         any
     }
 
     /// The changes of one micro-step, all right-hand sides read before it.
     fn collect_changes(&mut self, engine: &dyn Engine, e: &Equations, logic: &Logic, t: f64) {
-        self.changes.clear();
         for transition in &self.chosen {
             let code = &logic.transitions[transition.position()];
             for (state, formula) in &code.resets {

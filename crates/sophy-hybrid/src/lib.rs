@@ -10,6 +10,7 @@
 mod control;
 mod error;
 mod livelock;
+mod worklist;
 mod zeno;
 
 pub use control::{Control, Counts, Taken};
