@@ -12,6 +12,7 @@ mod inputs;
 mod jacobian;
 mod limits;
 mod promises;
+mod shapes;
 mod simultaneous;
 mod support;
 mod switches;
