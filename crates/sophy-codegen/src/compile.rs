@@ -49,7 +49,9 @@ pub enum CompileError {
         transition: String,
     },
     /// A guard has too many conditions.
-    #[error("the guard of transition `{transition}` has more than 65536 conditions, those of `if` counted twice")]
+    #[error(
+        "the guard of transition `{transition}` has more than 65536 conditions, those of `if` counted twice"
+    )]
     GuardTooLong {
         /// The transition.
         transition: String,

@@ -315,7 +315,10 @@ impl<'a> Emitter<'a> {
                 self.compiler.begin(operands.len() as u32);
                 self.shapes.reader.read(self.system, self.memory, roots, stored);
                 for (number, &operand) in (0..).zip(&self.shapes.reader.operands) {
-                    let jet = matches!(self.memory.place(self.system, request.side, operand), Some(Operand::Jet(_)));
+                    let jet = matches!(
+                        self.memory.place(self.system, request.side, operand),
+                        Some(Operand::Jet(_))
+                    );
                     self.compiler.gathered(operand, number, jet);
                 }
                 let places = if stored {

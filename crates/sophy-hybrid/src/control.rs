@@ -135,7 +135,9 @@ impl Control {
                 accumulation = accumulation.or(zeno);
             }
             step += 1;
-            if let Some(cycle) = livelock.after(step, engine, e, t, &self.queues, &self.changes, &taken[before..]) {
+            if let Some(cycle) =
+                livelock.after(step, engine, e, t, &self.queues, &self.changes, &taken[before..])
+            {
                 return Err(HybridError::Livelock { time: t, steps: step, cycle, exact: true });
             }
             if step >= self.most_steps {
@@ -196,15 +198,15 @@ impl Control {
             let Some(event) = queue.pop_front() else { return false };
             any = true;
             let location = engine.locations()[automaton.position()].position();
-            let waiting = logic.outgoing[automaton.position()][location].iter().copied().find(|transition| match &logic
-                .transitions[transition.position()]
-            .trigger
-            {
-                TriggerCode::On(events, guard) => {
-                    events.contains(&event) && guard.holds(|watch| engine.sign(watch))
-                }
-                TriggerCode::When(_) => false,
-            });
+            let waiting =
+                logic.outgoing[automaton.position()][location].iter().copied().find(
+                    |transition| match &logic.transitions[transition.position()].trigger {
+                        TriggerCode::On(events, guard) => {
+                            events.contains(&event) && guard.holds(|watch| engine.sign(watch))
+                        }
+                        TriggerCode::When(_) => false,
+                    },
+                );
             match waiting {
                 Some(transition) => chosen.push(transition),
                 None => counts.unused_events += 1,

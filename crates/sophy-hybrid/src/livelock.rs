@@ -43,12 +43,14 @@ impl Livelock {
         // What the micro-step itself changed tells most situations apart, without looking at all states.
         let first_location = e.layout.states as usize;
         let may_return = self.kept_at > 0
-            && changes.states.iter().all(|(s, _)| {
-                self.kept[s.position()] == engine.value(SourceIndex(s.0), t).to_bits()
-            })
-            && changes.locations.iter().all(|(a, location)| {
-                self.kept[first_location + a.position()] == u64::from(location.0)
-            });
+            && changes
+                .states
+                .iter()
+                .all(|(s, _)| self.kept[s.position()] == engine.value(SourceIndex(s.0), t).to_bits())
+            && changes
+                .locations
+                .iter()
+                .all(|(a, location)| self.kept[first_location + a.position()] == u64::from(location.0));
         if may_return && situation.clone().eq(self.kept.iter().copied()) {
             let round = taken.iter().filter(|taken| taken.step >= self.kept_at && taken.time == t);
             return Some(round.map(|taken| taken.transition).collect());

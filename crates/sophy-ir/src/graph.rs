@@ -1,7 +1,7 @@
 use crate::arithmetic::{Binary, Comparison, Unary, integer_power};
 use crate::model::VariableId;
-use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
 use rustc_hash::FxBuildHasher;
+use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
 use std::hash::BuildHasher;
 
 /// A node of a [`Graph`]. Equal expressions of one graph have equal ids.
@@ -98,11 +98,11 @@ impl Graph {
     }
 
     fn intern(&mut self, node: Node) -> NodeId {
-        if 4 * self.nodes.len() >= 3 * self.known.len() {
+        if 2 * self.nodes.len() >= self.known.len() {
             self.grow();
         }
         let mask = self.known.len() - 1;
-        let mut at = FxBuildHasher.hash_one(node) as usize & mask;
+        let mut at = hash(&node) & mask;
         while let Some(position) = self.known[at].checked_sub(1) {
             if self.nodes[position as usize] == node {
                 return NodeId(position);
@@ -119,7 +119,7 @@ impl Graph {
         let length = (2 * self.known.len()).max(16);
         let mut known = vec![0; length];
         for (position, node) in (1..).zip(&self.nodes) {
-            let mut at = FxBuildHasher.hash_one(node) as usize & (length - 1);
+            let mut at = hash(node) & (length - 1);
             while known[at] != 0 {
                 at = (at + 1) & (length - 1);
             }
@@ -289,6 +289,13 @@ impl Graph {
             Node::Select(c, a, b) => self.select(c, a, b),
         }
     }
+}
+
+/// The quick hash alone is linear in operands, and those of copies are equally spaced: it would crowd them.
+fn hash(node: &Node) -> usize {
+    let quick = FxBuildHasher.hash_one(node);
+    let mixed = (quick ^ quick >> 32).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (mixed >> 20) as usize
 }
 
 impl Node {

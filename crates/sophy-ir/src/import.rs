@@ -104,7 +104,8 @@ mod tests {
             };
             let copied = [sine, double].map(|root| importer.import(&mut flat, &class, root, &mut replace));
             assert_eq!(asked, 1);
-            let plain = flat.import(&class, double, &mut |graph, _| graph.leaf(Leaf::State(StateIndex(copy))));
+            let plain =
+                flat.import(&class, double, &mut |graph, _| graph.leaf(Leaf::State(StateIndex(copy))));
             assert_eq!(copied[1], plain);
         }
         assert_eq!(flat.len(), 1 + 3 * 3, "one 2, and three nodes per copy");

@@ -105,8 +105,7 @@ mod tests {
                 }
             }
         }
-        let row =
-            |node| Row { owner: AutomatonIndex(0), by_location: vec![node], spans: vec![None] };
+        let row = |node| Row { owner: AutomatonIndex(0), by_location: vec![node], spans: vec![None] };
         let variable = |leaf: Leaf| matches!(leaf, Leaf::State(_) | Leaf::Algebraic(_));
         let mut linearity = Linearity::default();
         let sum = g.add(x, y);

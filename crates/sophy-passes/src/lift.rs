@@ -5,8 +5,7 @@
 use rustc_hash::FxHashMap;
 use sophy_field::{AlgebraicIndex, StairIndex, TruthIndex, WatchIndex};
 use sophy_ir::{
-    Binary, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Stair, System, Truth, Unary,
-    Watch,
+    Binary, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Stair, System, Truth, Unary, Watch,
 };
 
 /// Lifts the kinks of rates, algebraic variables and guards. Outputs and resets keep theirs: they are read
@@ -207,9 +206,8 @@ impl Lifter<'_> {
         if !self.linearity.is_affine(&self.system.graph, difference) {
             return None;
         }
-        let variable = |leaf: Leaf| {
-            matches!(leaf, Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_))
-        };
+        let variable =
+            |leaf: Leaf| matches!(leaf, Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_));
         self.system.graph.affine(difference, &variable)
     }
 

@@ -2,8 +2,8 @@
 
 use sophy_field::{AutomatonIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex};
 use sophy_ir::{
-    Automaton, Comparison, FlatLocation, FlatReset, FlatTransition, FlatTrigger, Graph, Leaf, NodeId, Parameter,
-    Row, State, System, Unary,
+    Automaton, Comparison, FlatLocation, FlatReset, FlatTransition, FlatTrigger, Graph, Leaf, NodeId,
+    Parameter, Row, State, System, Unary,
 };
 
 /// A ring of `count` equal cells with three states each, every one a component of its own.
@@ -51,7 +51,8 @@ pub fn ring(count: usize, events: bool) -> System {
         let names = &["rest", "busy"][..locations];
         let first = system.transitions.len();
         let outgoing = |l: usize| if events { vec![TransitionIndex::new(first + l)] } else { Vec::new() };
-        let location = |(l, name): (usize, &&str)| FlatLocation { name: (*name).to_owned(), transitions: outgoing(l) };
+        let location =
+            |(l, name): (usize, &&str)| FlatLocation { name: (*name).to_owned(), transitions: outgoing(l) };
         system.automata.push(Automaton {
             name: format!("cell[{cell}]"),
             locations: names.iter().enumerate().map(location).collect(),

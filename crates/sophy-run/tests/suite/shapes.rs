@@ -57,7 +57,8 @@ fn programs_do_not_multiply_with_copies() {
     for events in [false, true] {
         let programs = |count| {
             let equations = compiled(&lifted(ring(count, events)), Sharing::Usual).equations;
-            let absolute = equations.blocks.iter().filter(|b| b.call.program > 0 && b.call.operands.is_empty());
+            let absolute =
+                equations.blocks.iter().filter(|b| b.call.program > 0 && b.call.operands.is_empty());
             (equations.programs.len(), absolute.count())
         };
         let few = programs(20);
