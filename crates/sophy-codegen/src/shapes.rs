@@ -22,7 +22,7 @@ pub enum Sharing {
 
 impl Sharing {
     /// From how many uses on a program is shared.
-    fn from_uses(self) -> u32 {
+    fn least_uses(self) -> u32 {
         match self {
             Sharing::Usual => 8,
             Sharing::Always => 2,
@@ -269,7 +269,7 @@ pub(crate) struct Emitter<'a> {
     memory: &'a mut Memory,
     shapes: Shapes,
     compiler: Compiler<'a>,
-    from_uses: u32,
+    least_uses: u32,
     /// Per shape: its shared program and where the results stand.
     shared: Vec<Option<(u32, Vec<Operand>)>>,
     made: Programs,
@@ -282,7 +282,7 @@ impl<'a> Emitter<'a> {
             compiler: Compiler::new(system, memory.layout.width, memory.end()),
             shared: vec![None; shapes.uses.len()],
             made: Programs { programs: vec![Program::default()], ..Programs::default() },
-            from_uses: sharing.from_uses(),
+            least_uses: sharing.least_uses(),
             system,
             memory,
             shapes,
@@ -298,7 +298,7 @@ impl<'a> Emitter<'a> {
             results.extend(roots.iter().filter_map(|&root| self.memory.place(system, side, root)));
             return Call::default();
         }
-        if self.shapes.uses[request.shape as usize] < self.from_uses {
+        if self.shapes.uses[request.shape as usize] < self.least_uses {
             let to = (request.to != NOWHERE).then_some(request.to);
             self.compiler.begin(0);
             results.extend(self.compiler.compile(self.memory, request.side, roots, to));

@@ -159,7 +159,7 @@ fn case(steps: &[Step], point: Point, tame: bool) -> Case {
 fn lowered(model: &Model, point: Point) -> Case {
     let system = sophy_passes::lower(model).expect("lowers");
     // Programs of their own and shared ones must not differ in a bit.
-    let sharing = if system.graph.len() % 2 == 0 { Sharing::Always } else { Sharing::Usual };
+    let sharing = if system.graph.len().is_multiple_of(2) { Sharing::Always } else { Sharing::Usual };
     let compiled = compile_sharing(&system, &Parameters::new(), 2, sharing).expect("compiles");
     Case { system, compiled, point }
 }
