@@ -8,6 +8,7 @@ use sophy_ir::{System, Value, evaluate};
 use sophy_passes::lift_kinks;
 use sophy_run::{Pause, Run};
 use sophy_solvers::{Qss, Quantum, Settings};
+use sophy_testkit::Build;
 use sophy_testkit::cells::{distinct, ring};
 use std::sync::Arc;
 
@@ -96,6 +97,29 @@ fn different_equations_keep_programs_of_their_own() {
     let equations = compiled(&system, Sharing::Usual).equations;
     assert!(equations.programs.len() >= 300, "{}", equations.programs.len());
     assert!(play(&system, Sharing::Never, 1.0) == play(&system, Sharing::Always, 1.0));
+}
+
+/// What parts of a guard share is written several times: a guard that would double 40 times is refused.
+#[test]
+fn a_guard_that_would_grow_without_end_is_refused() {
+    let mut b = Build::default();
+    b.component("");
+    let x = b.state("x", 0.0);
+    let (read, here) = (b.read(x), b.location("all"));
+    let one = b.number(1.0);
+    b.rate(here, x, one);
+    let mut guard = b.greater(read, one);
+    for k in 2..42 {
+        let limit = b.number(f64::from(k));
+        let above = b.greater(read, limit);
+        let graph = b.graph();
+        let not = graph.not(guard);
+        guard = graph.select(above, not, guard);
+    }
+    b.when(here, "parity", guard, here, &[]);
+    let system = sophy_passes::lower(&b.model).expect("lowers");
+    let error = compile(&system, &Parameters::new(), 2).expect_err("is refused");
+    assert!(error.to_string().contains("`parity` has more than 65536 conditions"), "{error}");
 }
 
 /// One component with many states: no program is as long as the model.
