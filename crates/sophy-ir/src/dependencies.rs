@@ -53,6 +53,17 @@ impl Reach {
         roots: impl IntoIterator<Item = NodeId>,
         known: impl Fn(NodeId) -> bool,
     ) -> &[NodeId] {
+        self.entering(graph, roots, known, |_| true)
+    }
+
+    /// The same without what is needed only by nodes that `enter` keeps closed; these are found themselves.
+    pub fn entering(
+        &mut self,
+        graph: &Graph,
+        roots: impl IntoIterator<Item = NodeId>,
+        known: impl Fn(NodeId) -> bool,
+        enter: impl Fn(NodeId) -> bool,
+    ) -> &[NodeId] {
         self.begin(graph);
         let (round, seen, pending) = (self.round, &mut self.seen, &mut self.pending);
         pending.extend(roots);
@@ -60,7 +71,9 @@ impl Reach {
             if seen[id.position()] != round && !known(id) {
                 seen[id.position()] = round;
                 self.found.push(id);
-                graph.operands(id, |operand| pending.push(operand));
+                if enter(id) {
+                    graph.operands(id, |operand| pending.push(operand));
+                }
             }
         }
         self.found.sort_unstable();
@@ -95,6 +108,7 @@ mod tests {
         assert_eq!(reach.of(&g, [sum]), g.reachable([sum]));
         assert_eq!(reach.of(&g, [sum, product]), [x, y, z, product, sum]);
         assert_eq!(reach.beyond(&g, [sum], |id| id == product), [z, sum]);
+        assert_eq!(reach.entering(&g, [sum], |_| false, |id| id != product), [z, product, sum]);
         let later = g.add(sum, x);
         assert_eq!(reach.of(&g, [later]).len(), 6, "the graph may grow in between");
     }
