@@ -68,7 +68,8 @@ fn line(line: &Line) -> String {
 fn record(one: &DiagramBox) -> String {
     let ports = |side: &str, ports: &[DiagramPort]| {
         let named = ports.iter().enumerate();
-        let named = named.map(|(n, port)| format!("<{side}{n}> {} {}", letter(port.symbol), field(&port.name)));
+        let named =
+            named.map(|(n, port)| format!("<{side}{n}> {} {}", letter(port.symbol), field(&port.name)));
         named.collect::<Vec<_>>().join("|")
     };
     let middle: Vec<String> = lines(one).iter().map(|line| field(line)).collect();

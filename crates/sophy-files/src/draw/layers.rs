@@ -92,7 +92,9 @@ pub(super) struct Layers {
 /// Arranges items in ranks.
 pub(super) fn layers(items: &[Item], links: &[Link], flow: Flow) -> Layers {
     let ranks = match flow {
-        Flow::Around => longest_paths(items.len(), &around(items.len(), links)).iter().map(|r| 2 * r).collect(),
+        Flow::Around => {
+            longest_paths(items.len(), &around(items.len(), links)).iter().map(|r| 2 * r).collect()
+        }
         Flow::Onward => pinned(items, links),
     };
     let mut layers = Layers { cells: items.iter().zip(&ranks).map(item_cell).collect(), ..Layers::default() };
@@ -273,7 +275,8 @@ impl Layers {
         let channel = if turns || source < target { target } else { target + 1 };
         let first = self.hops.len() - between.len();
         self.hop(number, channel, at, link.to);
-        let port = |heights: &[f64], port: Option<usize>| port.and_then(|p| heights.get(p)).copied().unwrap_or(0.0);
+        let port =
+            |heights: &[f64], port: Option<usize>| port.and_then(|p| heights.get(p)).copied().unwrap_or(0.0);
         self.hops[first].from_offset = port(&items[link.from].right, link.from_port);
         if let Some(last) = self.hops.last_mut() {
             last.to_offset = port(&items[link.to].left, link.to_port);
@@ -328,7 +331,11 @@ impl Layers {
             let (a, b) = if self.cells[a].rank < self.cells[b].rank { (a, b) } else { (b, a) };
             if self.cells[a].rank != self.cells[b].rank {
                 let (fixed, moved) = if rightwards { (a, b) } else { (b, a) };
-                by_rank[self.cells[moved].rank].push((fixed, self.share(hop, fixed) - self.share(hop, moved), moved));
+                by_rank[self.cells[moved].rank].push((
+                    fixed,
+                    self.share(hop, fixed) - self.share(hop, moved),
+                    moved,
+                ));
             }
         }
         let mut position = self.positions();
@@ -379,7 +386,8 @@ impl Layers {
         }
         for rank in &mut self.ranks {
             let free = rank.iter().filter(|&&cell| self.cells[cell].host.is_none());
-            *rank = free.flat_map(|&cell| std::iter::once(cell).chain(guests[cell].iter().copied())).collect();
+            *rank =
+                free.flat_map(|&cell| std::iter::once(cell).chain(guests[cell].iter().copied())).collect();
         }
     }
 

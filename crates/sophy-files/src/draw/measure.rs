@@ -75,7 +75,8 @@ pub(super) fn measure(diagram: &Diagram) -> Measured {
     for arrow in diagram.arrows.iter().filter(|arrow| is_led(arrow, diagram)) {
         let label = Label { above: shown(&arrow.above), below: shown(&arrow.below) };
         let widest = widest(label.above.iter().chain(&label.below), TEXT);
-        let height = |lines: &[String]| LEADING * lines.len() as f64 + if lines.is_empty() { 0.0 } else { LABEL_GAP };
+        let height =
+            |lines: &[String]| LEADING * lines.len() as f64 + if lines.is_empty() { 0.0 } else { LABEL_GAP };
         let (above, below) = (height(&label.above), height(&label.below));
         let room = if widest > 0.0 { widest + 2.0 * LABEL_GAP } else { 0.0 };
         let of_its_own = diagram.kind == DiagramKind::Automaton;

@@ -32,7 +32,10 @@ pub fn draw(path: &Path, diagram: &Diagram) -> Result<(), FileError> {
         "png" => png(path, &sheet::svg(diagram))?,
         "dot" | "gv" => dot::dot(diagram).into_bytes(),
         _ => {
-            return Err(FileError::UnknownExtension { path: path.to_path_buf(), known: ".svg, .png, .dot, .gv" });
+            return Err(FileError::UnknownExtension {
+                path: path.to_path_buf(),
+                known: ".svg, .png, .dot, .gv",
+            });
         }
     };
     write_whole(path, |file| file.write_all(&picture).map_err(FileError::writing(path)))

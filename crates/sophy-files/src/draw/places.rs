@@ -40,7 +40,11 @@ pub(super) fn heights(layers: &Layers, items: usize) -> Vec<f64> {
     // The items stay; what passes through follows the arrow, so that it is straight where it can be.
     for (rank, cells) in layers.ranks.iter().enumerate() {
         let follow = |cell: usize| {
-            pulls[cell].iter().filter(|&&(other, ..)| layers.cells[other].rank < rank).map(|p| y[p.0] + p.1).next()
+            pulls[cell]
+                .iter()
+                .filter(|&&(other, ..)| layers.cells[other].rank < rank)
+                .map(|p| y[p.0] + p.1)
+                .next()
         };
         let wanted: Vec<(f64, f64)> = cells
             .iter()

@@ -60,7 +60,8 @@ pub(super) fn layout(items: &[Item], links: &[Link], flow: Flow, lead_in: &[f64]
         let (left, width) = columns[layers.cells[cell].rank];
         left + 0.5 * width
     };
-    let corners = items.iter().enumerate().map(|(i, item)| (middle(i) - 0.5 * item.width, y[i] - 0.5 * item.height));
+    let corners =
+        items.iter().enumerate().map(|(i, item)| (middle(i) - 0.5 * item.width, y[i] - 0.5 * item.height));
     let mut routes = vec![Vec::new(); links.len()];
     let mut labels = vec![None; links.len()];
     for (number, hop) in layers.hops.iter().enumerate() {
@@ -116,7 +117,8 @@ fn tracks(layers: &Layers, ends: &impl Fn(&Hop) -> (f64, f64)) -> (Vec<Option<us
                 _ => (from, to),
             }
         };
-        let turns = |hop: usize| layers.cells[layers.hops[hop].from].rank == layers.cells[layers.hops[hop].to].rank;
+        let turns =
+            |hop: usize| layers.cells[layers.hops[hop].from].rank == layers.cells[layers.hops[hop].to].rank;
         hops.sort_by(|&a, &b| {
             let key = |hop: usize| {
                 let (left, right) = sides(hop);

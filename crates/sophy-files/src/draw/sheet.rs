@@ -3,8 +3,8 @@
 use super::diagram::{Arrow, BoxKind, Diagram, DiagramBox, DiagramKind, DiagramPort, Line, Symbol};
 use super::layers::{Flow, Item, Pin};
 use super::measure::{
-    Content, LABEL_GAP, LEADING, Label, Measured, NAME, PAD, PORT_PAD, SMALL, STACK, START, TEXT, derivative_width,
-    is_led, measure,
+    Content, LABEL_GAP, LEADING, Label, Measured, NAME, PAD, PORT_PAD, SMALL, STACK, START, TEXT,
+    derivative_width, is_led, measure,
 };
 use super::routes::{Layout, layout};
 use crate::plot::palette::{location, location_shade};
@@ -138,7 +138,8 @@ impl Sheet {
     }
 
     fn framed(&mut self, number: usize, diagram: &Diagram, measured: &Measured, corner: (f64, f64)) {
-        let (one, item, content) = (&diagram.boxes[number], &measured.items[number], &measured.contents[number]);
+        let (one, item, content) =
+            (&diagram.boxes[number], &measured.items[number], &measured.contents[number]);
         let corner = self.at(corner);
         self.svg.begin_group(&one.tip);
         match one.kind {
@@ -195,7 +196,11 @@ impl Sheet {
         let middle = x + 0.5 * item.width;
         let used = content.header + LEADING * content.lines.len() as f64;
         // A box that is higher for its arrows has its text in the middle.
-        let free = if one.inputs.is_empty() && one.outputs.is_empty() { item.height - used - 1.2 * PAD } else { 0.0 };
+        let free = if one.inputs.is_empty() && one.outputs.is_empty() {
+            item.height - used - 1.2 * PAD
+        } else {
+            0.0
+        };
         let mut base = y + 0.5 * free + 0.6 * PAD + NAME - 1.0;
         self.svg.text((middle, base), Anchor::Middle, NAME, &content.name);
         if !content.caption.is_empty() {
@@ -245,7 +250,9 @@ impl Sheet {
         match symbol {
             Symbol::Signal => self.svg.shape(&polygon(&[(-4.5, 3.5), (4.5, 3.5), (0.0, -4.5)]), &open),
             Symbol::Event => self.svg.shape(&polygon(&[(-3.5, -4.5), (-3.5, 4.5), (4.5, 0.0)]), &open),
-            Symbol::Text => self.svg.shape(&polygon(&[(-5.0, 0.0), (0.0, -5.0), (5.0, 0.0), (0.0, 5.0)]), &open),
+            Symbol::Text => {
+                self.svg.shape(&polygon(&[(-5.0, 0.0), (0.0, -5.0), (5.0, 0.0), (0.0, 5.0)]), &open)
+            }
             Symbol::Integer => self.svg.shape(&polygon(&[(-r, -r), (r, -r), (r, r), (-r, r)]), &open),
             Symbol::Real => self.svg.circle((x, y), 3.5, &format!("fill=\"{INK}\"")),
             Symbol::Boolean => {

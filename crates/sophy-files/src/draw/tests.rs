@@ -29,7 +29,10 @@ fn hopper() -> Diagram {
     let mut boxes = vec![
         location("Flight", &[("position", "= speed"), ("speed", "= −g")]),
         location("Compression", &contact),
-        location("Thrust", &[("position", "= speed"), ("speed", "= tau − gamma·speed − g"), ("clock", "= 1")]),
+        location(
+            "Thrust",
+            &[("position", "= speed"), ("speed", "= tau − gamma·speed − g"), ("clock", "= 1")],
+        ),
         location("Decompression", &contact),
     ];
     boxes[0].kind = BoxKind::Initial;
@@ -44,7 +47,12 @@ fn hopper() -> Diagram {
 
 fn ring_with_loop() -> Diagram {
     let mut diagram = hopper();
-    diagram.arrows.push(transition(0, 0, &["|speed| < 0.01 and position < 2·L and battery.charge > 20 or emergency"], &["?stop  !stopped"]));
+    diagram.arrows.push(transition(
+        0,
+        0,
+        &["|speed| < 0.01 and position < 2·L and battery.charge > 20 or emergency"],
+        &["?stop  !stopped"],
+    ));
     diagram.arrows.push(transition(1, 0, &["position > 2·L"], &["!lost"]));
     diagram
 }
@@ -71,7 +79,8 @@ fn missile() -> Diagram {
     boxes[0].kind = BoxKind::Input;
     boxes[5].kind = BoxKind::Stack;
     boxes[7].kind = BoxKind::Output;
-    let symbols = [(3, 0, Symbol::Real), (3, 1, Symbol::Text), (4, 0, Symbol::Boolean), (4, 1, Symbol::Event)];
+    let symbols =
+        [(3, 0, Symbol::Real), (3, 1, Symbol::Text), (4, 0, Symbol::Boolean), (4, 1, Symbol::Event)];
     for (number, port, symbol) in symbols {
         boxes[number].inputs[port].symbol = symbol;
     }
@@ -144,8 +153,12 @@ fn areas(items: &[Item], links: &[Link], layout: &Layout) -> Vec<[f64; 4]> {
 }
 
 fn items_and_links() -> impl Strategy<Value = (Vec<Item>, Vec<Link>)> {
-    let item = (40.0..220.0_f64, 40.0..120.0_f64, 0.0..30.0_f64)
-        .prop_map(|(width, height, head)| Item { width, height, head, ..Item::default() });
+    let item = (40.0..220.0_f64, 40.0..120.0_f64, 0.0..30.0_f64).prop_map(|(width, height, head)| Item {
+        width,
+        height,
+        head,
+        ..Item::default()
+    });
     prop::collection::vec(item, 1..9).prop_flat_map(|items| {
         let count = items.len();
         let link = (0..count, 0..count, 10.0..150.0_f64, 0.0..40.0_f64, 0.0..40.0_f64).prop_map(
@@ -209,10 +222,13 @@ fn a_ring_has_two_branches() {
 
 #[test]
 fn ports_of_a_composite_stand_at_its_border() {
-    let mut items = vec![Item { width: 50.0, height: 20.0, left: vec![0.0], right: vec![0.0], ..Item::default() }; 4];
+    let mut items =
+        vec![Item { width: 50.0, height: 20.0, left: vec![0.0], right: vec![0.0], ..Item::default() }; 4];
     (items[2].at, items[3].at) = (Pin::First, Pin::Last);
-    let links: Vec<Link> =
-        [(0, 1), (1, 0), (2, 1), (1, 3)].into_iter().map(|(from, to)| Link { from, to, ..Link::default() }).collect();
+    let links: Vec<Link> = [(0, 1), (1, 0), (2, 1), (1, 3)]
+        .into_iter()
+        .map(|(from, to)| Link { from, to, ..Link::default() })
+        .collect();
     let layout = layout(&items, &links, Flow::Onward, &[]);
     let x: Vec<f64> = layout.corners.iter().map(|corner| corner.0).collect();
     assert!((0..3).all(|n| n == 2 || x[n] > x[2]) && (0..3).all(|n| x[n] < x[3]), "{x:?}");
@@ -237,7 +253,10 @@ fn a_drawing_is_well_formed_and_the_same_every_time() {
                 Some("middle") => x - 0.5 * room,
                 _ => x - room,
             };
-            assert!(left >= 0.0 && left + room <= width && y >= size && y <= height - 3.0, "{name}: {text:?}");
+            assert!(
+                left >= 0.0 && left + room <= width && y >= size && y <= height - 3.0,
+                "{name}: {text:?}"
+            );
         }
         for one in &diagram.boxes {
             assert!(svg.contains(&one.name), "{name}: {}", one.name);

@@ -1,8 +1,8 @@
 use super::components::Census;
 use serde::Serialize;
 use sophy_ir::{
-    Actions, Automaton, Body, Class, EventSection, HybridAutomaton, Leaf, Location, Model, NodeId, Role, Rule, System,
-    Transition, VariableId,
+    Actions, Automaton, Body, Class, EventSection, HybridAutomaton, Leaf, Location, Model, NodeId, Role,
+    Rule, System, Transition, VariableId,
 };
 use std::collections::HashMap;
 
@@ -141,7 +141,11 @@ impl Text<'_> {
         known.collect()
     }
 
-    fn transition(&self, transition: &Transition, affine: &HashMap<(&str, usize), bool>) -> TransitionDescription {
+    fn transition(
+        &self,
+        transition: &Transition,
+        affine: &HashMap<(&str, usize), bool>,
+    ) -> TransitionDescription {
         let emission = |e: &sophy_ir::Emission| match e.when {
             Some(when) => format!("{} if {}", e.label, self.class.text(when)),
             None => e.label.clone(),
@@ -169,7 +173,8 @@ impl Text<'_> {
     }
 
     fn section(&self, section: &EventSection) -> Vec<Reaction> {
-        let directions = [("negative to positive", &section.rising), ("positive to negative", &section.falling)];
+        let directions =
+            [("negative to positive", &section.rising), ("positive to negative", &section.falling)];
         let reaction = |(direction, actions): (&str, &Option<Actions>)| {
             let actions = actions.as_ref()?;
             let when = format!("{} from {direction}", self.name(section.flag));
@@ -183,7 +188,8 @@ impl Text<'_> {
         if let Some(delay) = rule.delay {
             when = format!("{when}, delay {} s", self.class.text(delay));
         }
-        for (is, word) in [(rule.latched, "latched"), (rule.cancellable, "cancellable"), (rule.initially, "initially")]
+        for (is, word) in
+            [(rule.latched, "latched"), (rule.cancellable, "cancellable"), (rule.initially, "initially")]
         {
             if is {
                 when = format!("{when}, {word}");

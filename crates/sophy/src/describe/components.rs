@@ -49,7 +49,8 @@ struct Pending {
 
 impl Census {
     pub(super) fn new(model: &Model) -> Self {
-        let mut census = Census { components: Vec::new(), of_class: vec![OfClass::default(); model.classes.len()] };
+        let mut census =
+            Census { components: Vec::new(), of_class: vec![OfClass::default(); model.classes.len()] };
         let root = model.root;
         let mut pending = vec![Pending {
             name: model.name().to_owned(),
@@ -90,7 +91,8 @@ impl Census {
 fn members(members: &[Member], of: &Pending) -> Vec<Pending> {
     let mut found: Vec<Pending> = Vec::new();
     let mut known: HashMap<(&str, ClassIndex), usize> = HashMap::new();
-    let below = |path: &str, name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+    let below =
+        |path: &str, name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     for member in members {
         let position = *known.entry((&member.name, member.class)).or_insert_with(|| {
             let first = member.copy_name(0);

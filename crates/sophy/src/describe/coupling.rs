@@ -85,7 +85,9 @@ impl<'a> Coupling<'a> {
     }
 
     pub(super) fn dependencies(&self, rows: &[(Reads, Vec<Reads>)]) -> Vec<Dependency> {
-        let names = |reads: &Reads| -> Vec<String> { reads.iter().map(|&leaf| self.system.leaf_name(leaf)).collect() };
+        let names = |reads: &Reads| -> Vec<String> {
+            reads.iter().map(|&leaf| self.system.leaf_name(leaf)).collect()
+        };
         let described = self.states.iter().zip(rows).map(|(&state, (all, each))| {
             let state = &self.system.states[state];
             let differs = each.windows(2).any(|pair| pair[0] != pair[1]);
@@ -95,7 +97,9 @@ impl<'a> Coupling<'a> {
             Dependency {
                 state: state.name.clone(),
                 reads: names(all),
-                by_location: by_location.map(|(location, reads)| (location.name.clone(), names(reads))).collect(),
+                by_location: by_location
+                    .map(|(location, reads)| (location.name.clone(), names(reads)))
+                    .collect(),
             }
         });
         described.collect()

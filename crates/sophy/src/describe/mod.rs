@@ -137,7 +137,8 @@ fn sizes(model: &Model, census: &Census, system: &System) -> Sizes {
     for (class, of_class) in model.classes.iter().zip(&census.of_class) {
         sizes.components += of_class.copies;
         if let sophy_ir::Body::Automaton(automaton) = &class.body {
-            let transitions: usize = automaton.locations.iter().map(|location| location.transitions.len()).sum();
+            let transitions: usize =
+                automaton.locations.iter().map(|location| location.transitions.len()).sum();
             sizes.locations += of_class.copies * automaton.locations.len() as u64;
             sizes.transitions += of_class.copies * transitions as u64;
         }

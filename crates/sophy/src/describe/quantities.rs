@@ -53,7 +53,8 @@ impl<'a> Values<'a> {
 
     pub(super) fn constants(&self) -> Vec<Quantity> {
         let described = self.system.parameters.iter().zip(&self.parameters).map(|(parameter, &value)| {
-            let quantity = self.quantity(&parameter.name, parameter.unit.as_ref(), parameter.origin, Some(value));
+            let quantity =
+                self.quantity(&parameter.name, parameter.unit.as_ref(), parameter.origin, Some(value));
             Quantity { knob: parameter.knob, ..quantity }
         });
         described.collect()

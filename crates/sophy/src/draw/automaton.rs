@@ -1,6 +1,8 @@
 use super::notation::short;
 use sophy_files::{Arrow, ArrowEnd, BoxKind, Diagram, DiagramBox, DiagramKind, Line};
-use sophy_ir::{Actions, Class, Equation, HybridAutomaton, Location, NodeId, Rule, Transition, Trigger, VariableId};
+use sophy_ir::{
+    Actions, Class, Equation, HybridAutomaton, Location, NodeId, Rule, Transition, Trigger, VariableId,
+};
 
 /// Locations with their equations and the transitions between them (thesis figure 8.1).
 ///
@@ -55,7 +57,8 @@ impl Drawing<'_> {
             .iter()
             .map(|location| location.values.iter().map(|value| (value.variable, value.right)).collect())
             .collect();
-        let same = |value: &&Equation| known.iter().all(|other| other.get(&value.variable) == Some(&value.right));
+        let same =
+            |value: &&Equation| known.iter().all(|other| other.get(&value.variable) == Some(&value.right));
         first.values.iter().filter(same).cloned().collect()
     }
 
@@ -63,8 +66,12 @@ impl Drawing<'_> {
         let class = self.class;
         let rests = |equation: &&Equation| class.graph.as_number(equation.right) != Some(0.0);
         let mut lines: Vec<Line> = location.dynamics.iter().filter(rests).map(|e| self.rate(e)).collect();
-        let rest: Vec<&str> =
-            location.dynamics.iter().filter(|e| !rests(e)).map(|equation| self.name(equation.variable)).collect();
+        let rest: Vec<&str> = location
+            .dynamics
+            .iter()
+            .filter(|e| !rests(e))
+            .map(|equation| self.name(equation.variable))
+            .collect();
         if lines.is_empty() && !rest.is_empty() {
             lines.push(plain(format!("{} constant", rest.join(", "))));
         }
@@ -76,8 +83,7 @@ impl Drawing<'_> {
         if let Some(invariant) = location.invariant {
             lines.push(plain(format!("while {}", self.text(invariant))));
         }
-        let kind =
-            if number == self.automaton.initial_location { BoxKind::Initial } else { BoxKind::Single };
+        let kind = if number == self.automaton.initial_location { BoxKind::Initial } else { BoxKind::Single };
         let name = if location.name.is_empty() { class.name.clone() } else { location.name.clone() };
         DiagramBox { kind, name, lines, tip: self.tip(location), ..DiagramBox::default() }
     }
@@ -90,8 +96,13 @@ impl Drawing<'_> {
         }
         for equation in &location.dynamics {
             let unit = self.class.variables.get(equation.variable.0 as usize).and_then(|v| v.unit.as_ref());
-            let unit = unit.map(|unit| format!(" ({} in {unit})", self.name(equation.variable))).unwrap_or_default();
-            lines.push(format!("der({}) = {}{unit}", self.name(equation.variable), self.text(equation.right)));
+            let unit =
+                unit.map(|unit| format!(" ({} in {unit})", self.name(equation.variable))).unwrap_or_default();
+            lines.push(format!(
+                "der({}) = {}{unit}",
+                self.name(equation.variable),
+                self.text(equation.right)
+            ));
         }
         lines.extend(location.values.iter().map(|value| self.value(value).text));
         lines.join("; ")
@@ -134,9 +145,13 @@ impl Drawing<'_> {
         }
         below.extend(self.actions(&transition.actions));
         let name = if transition.name.is_empty() { "transition" } else { transition.name.as_str() };
-        let mut tip = format!("{name}: {}", above.iter().chain(&below).cloned().collect::<Vec<_>>().join("; "));
+        let mut tip =
+            format!("{name}: {}", above.iter().chain(&below).cloned().collect::<Vec<_>>().join("; "));
         if !transition.documentation.is_empty() {
-            tip = format!("{} — {tip}", transition.documentation.split_whitespace().collect::<Vec<_>>().join(" "));
+            tip = format!(
+                "{} — {tip}",
+                transition.documentation.split_whitespace().collect::<Vec<_>>().join(" ")
+            );
         }
         let dashed = matches!(&transition.trigger, Trigger::On { .. } | Trigger::Synchronised { .. });
         arrow(source, transition.destination, above, below, tip, dashed)

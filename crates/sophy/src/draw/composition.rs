@@ -34,7 +34,8 @@ pub(super) fn discrete(class: &Class, discrete: &Discrete) -> Diagram {
         }
         Clock::Announced { next } => lines.push(format!("at {}", name(*next))),
     }
-    lines.extend(discrete.update.iter().map(|a| format!("{} := {}", name(a.variable), short(class, a.right))));
+    lines
+        .extend(discrete.update.iter().map(|a| format!("{} := {}", name(a.variable), short(class, a.right))));
     lines.extend(discrete.values.iter().map(|e| format!("{} = {}", name(e.variable), short(class, e.right))));
     let one = DiagramBox {
         name: class.name.clone(),
@@ -44,7 +45,12 @@ pub(super) fn discrete(class: &Class, discrete: &Discrete) -> Diagram {
         tip: class.documentation.clone(),
         ..DiagramBox::default()
     };
-    Diagram { title: class.name.clone(), kind: DiagramKind::Composition, boxes: vec![one], arrows: Vec::new() }
+    Diagram {
+        title: class.name.clone(),
+        kind: DiagramKind::Composition,
+        boxes: vec![one],
+        arrows: Vec::new(),
+    }
 }
 
 /// All members of one name and class.
@@ -168,7 +174,8 @@ impl<'a> Drawing<'a> {
         for group in self.groups {
             let many = group.copies != 1 || !group.shape.is_empty();
             let shape = if group.shape.is_empty() { group.copies.to_string() } else { group.shape };
-            let caption = if many { format!("{}[{shape}]", group.class.name) } else { group.class.name.clone() };
+            let caption =
+                if many { format!("{}[{shape}]", group.class.name) } else { group.class.name.clone() };
             let tip = if group.tip.is_empty() { group.class.documentation.trim() } else { group.tip.trim() };
             boxes.push(DiagramBox {
                 kind: if many { BoxKind::Stack } else { BoxKind::Single },
