@@ -4,18 +4,21 @@
 //! Machines are noisy: read the ratios, which compare neighbours in time, and never a speed without the error
 //! that stands beside it.
 
+mod build;
 mod floor;
 mod hopper;
 mod measure;
+mod memory;
 mod oscillator;
 mod report;
 
 fn main() -> std::io::Result<()> {
     let results = [hopper::bench(), oscillator::bench()].concat();
-    let markdown = report::markdown(&results);
+    let built = build::bench();
+    let markdown = report::markdown(&results) + "\n" + &report::built_markdown(&built);
     print!("{markdown}");
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
     std::fs::create_dir_all(&folder)?;
     std::fs::write(folder.join("latest.md"), markdown)?;
-    std::fs::write(folder.join("latest.json"), report::json(&results))
+    std::fs::write(folder.join("latest.json"), report::json(&results, &built))
 }

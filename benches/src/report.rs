@@ -1,3 +1,4 @@
+use crate::build::Built;
 use crate::measure::Measured;
 use serde_json::json;
 
@@ -26,8 +27,42 @@ pub fn markdown(results: &[Measured]) -> String {
     text
 }
 
+/// From system to started run, for people.
+pub fn built_markdown(built: &[Built]) -> String {
+    let mut text = String::from(
+        "| build | states | programs | lift, ns per state | start, ns per state | in all, s | B per state | peak, B per state |\n\
+         | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+    );
+    for b in built {
+        text += &format!(
+            "| {} | {} | {} | {:.0} | {:.0} | {:.2} | {} | {} |\n",
+            b.system,
+            b.states,
+            b.programs,
+            b.per_state(b.lift_ms),
+            b.per_state(b.start_ms),
+            1e-3 * (b.lift_ms + b.start_ms),
+            b.bytes / b.states,
+            b.peak / b.states,
+        );
+    }
+    text
+}
+
 /// The same for machines.
-pub fn json(results: &[Measured]) -> String {
+pub fn json(results: &[Measured], built: &[Built]) -> String {
+    let built = built.iter().map(|b| {
+        json!({
+            "bench": "build",
+            "system": b.system,
+            "states": b.states,
+            "programs": b.programs,
+            "lift_ns_per_state": b.per_state(b.lift_ms),
+            "start_ns_per_state": b.per_state(b.start_ms),
+            "bytes_per_state": b.bytes / b.states,
+            "peak_bytes_per_state": b.peak / b.states,
+        })
+    });
     let rows: Vec<_> = results
         .iter()
         .map(|r| {
@@ -45,6 +80,7 @@ pub fn json(results: &[Measured]) -> String {
                 "ratio_to_floor": r.ratio,
             })
         })
+        .chain(built)
         .collect();
     format!("{:#}\n", serde_json::Value::from(rows))
 }

@@ -58,7 +58,8 @@ pub fn analyse(
     let sorted = dependency_order(&needs);
     let mut circular: HashSet<usize> = HashSet::new();
     for cycle in &sorted.cycles {
-        let members: Vec<&ComponentDeclaration> = cycle.iter().map(|&index| library.components[index]).collect();
+        let members: Vec<&ComponentDeclaration> =
+            cycle.iter().map(|&index| library.components[index]).collect();
         shared.findings.report(hs0138_unknown_component::circle(&members));
         circular.extend(cycle);
     }
@@ -139,7 +140,8 @@ fn find_root(
             None
         }
         (several, _) => {
-            let several: Vec<&ComponentDeclaration> = several.iter().map(|&k| library.components[k]).collect();
+            let several: Vec<&ComponentDeclaration> =
+                several.iter().map(|&k| library.components[k]).collect();
             findings.report(hs0142_no_component::ambiguous(&several));
             None
         }

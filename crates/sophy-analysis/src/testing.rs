@@ -20,8 +20,9 @@
 
 use crate::declarations::{
     ComponentDeclaration, ComponentKind, Declarations, Dialect, Direction, EquationDeclaration, EquationItem,
-    Equations, ExpressionText, FunctionDeclaration, LocationDeclaration, ParameterDeclaration, PortDeclaration,
-    Spanned, Statement, Target, TransitionDeclaration, TriggerDeclaration, VariableDeclaration, VariableRole,
+    Equations, ExpressionText, FunctionDeclaration, LocationDeclaration, ParameterDeclaration,
+    PortDeclaration, Spanned, Statement, Target, TransitionDeclaration, TriggerDeclaration,
+    VariableDeclaration, VariableRole,
 };
 use sophy_diagnostics::{Diagnostic, Diagnostics, MemoryWorld, Severity, SourceId, Sources, Span, TextMap};
 use sophy_ir::Model;

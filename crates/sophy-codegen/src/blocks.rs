@@ -1,277 +1,247 @@
 //! Rows gathered into blocks by influence, and formulas on the series side.
 
-use crate::programs::{Compiler, Memory, Side, source_of};
+use crate::incidence::{Incidence, algebraics, sources};
+use crate::memory::{Memory, Side};
+use crate::shapes::{RequestIndex, Shapes};
+use rustc_hash::{FxHashMap, FxHasher};
 use sophy_field::{
-    AutomatonIndex, Block, Entry, Formula, LocationIndex, Program, RowResult, Selected, SourceIndex,
-    StateIndex, WatchIndex,
+    AutomatonIndex, Block, Call, Entry, Formula, LocationIndex, Operand, RowResult, SourceIndex, StateIndex,
+    Table,
 };
-use sophy_ir::{Leaf, NodeId, Row, System};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use sophy_ir::{Leaf, Linearity, NodeId, Row, System};
+use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
-/// Gathers programs, blocks and the lists they refer to.
+/// More rows of one automaton than these are not evaluated together: a program as long as the model could
+/// share nothing with others.
+const MOST_ROWS: usize = 32;
+
+/// Gathers blocks, formulas and the lists they refer to. What a call computes is only asked for: in
+/// `Call::program` stands the request until [`Gather::place`].
 pub(crate) struct Gather<'a> {
     pub(crate) system: &'a System,
     pub(crate) memory: Memory,
-    pub(crate) programs: Vec<Program>,
+    pub(crate) shapes: Shapes,
+    pub(crate) incidence: Incidence<'a>,
     pub(crate) blocks: Vec<Block>,
+    pub(crate) calls: Vec<Call>,
+    pub(crate) formulas: Vec<Formula>,
     pub(crate) sources: Vec<SourceIndex>,
     pub(crate) rows: Vec<RowResult>,
     pub(crate) entries: Vec<Entry>,
-    /// Per side, per algebraic variable: its entry (on the series side an entry of programs).
-    algebraic_entries: HashMap<(Side, usize, bool), Entry>,
-    /// Blocks of equal rows are one.
-    known: HashMap<(AutomatonIndex, Vec<Vec<StateIndex>>), Entry>,
-    /// Per state, per location of its owner: whether the rate bends there.
-    bends: Vec<Vec<bool>>,
-    /// Per leaf: the rates that read it, directly or through algebraic variables, as state and location.
-    pub(crate) readers: HashMap<Leaf, Vec<(StateIndex, usize)>>,
+    /// Per algebraic variable: the entry of its blocks, and those of its calls, smooth and plain.
+    algebraics: [Vec<Option<Entry>>; 3],
+    /// Blocks of equal rows are one; by a hash of the rows.
+    known: FxHashMap<u64, Entry>,
+    /// Per state and location: where its bend stands.
+    first_bend: Vec<u32>,
+    bends: Vec<bool>,
+    /// Per leaf, by its number: the rates that read it, directly or through algebraic variables.
+    readers: Table<Selection>,
 }
 
+/// A rate in a location of its owner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Selection {
+    owner: AutomatonIndex,
+    location: u32,
+    pub(crate) state: StateIndex,
+}
+
+const RESULT: Operand = Operand::Scalar(0);
+
 impl<'a> Gather<'a> {
-    pub(crate) fn new(system: &'a System, width: u32, bends: Vec<Vec<bool>>) -> Self {
-        let mut gather = Gather {
+    /// `order` is that of the engine.
+    pub(crate) fn new(system: &'a System, order: u32) -> Self {
+        let mut incidence = Incidence::new(system);
+        let mut linearity = Linearity::default();
+        for (z, algebraic) in system.algebraics.iter().enumerate() {
+            let index = sophy_field::AlgebraicIndex::new(z);
+            linearity.algebraic(&system.graph, index, &algebraic.value);
+        }
+        let (mut pairs, mut first_bend, mut bends) = (Vec::new(), Vec::new(), Vec::new());
+        for (position, state) in system.states.iter().enumerate() {
+            first_bend.push(bends.len() as u32);
+            for (location, &node) in (0..).zip(&state.rate.by_location) {
+                let state = StateIndex::new(position);
+                let selection = Selection { owner: system.states[position].rate.owner, location, state };
+                let mut driven = false;
+                incidence.closure([node]);
+                for &leaf in incidence.found() {
+                    driven |= matches!(leaf, Leaf::Input(_) | Leaf::Time);
+                    pairs.extend(incidence.number(leaf).map(|number| (number as u32, selection)));
+                }
+                bends.push(if order == 1 { driven } else { !linearity.is_affine(&system.graph, node) });
+            }
+        }
+        Gather {
             system,
-            memory: Memory::new(system, width),
-            programs: vec![Program::default()],
+            memory: Memory::new(system, order + 1),
+            shapes: Shapes::default(),
             blocks: Vec::new(),
+            calls: Vec::new(),
+            formulas: Vec::new(),
             sources: Vec::new(),
             rows: Vec::new(),
             entries: Vec::new(),
-            algebraic_entries: HashMap::new(),
-            known: HashMap::new(),
+            algebraics: std::array::from_fn(|_| vec![None; system.algebraics.len()]),
+            known: FxHashMap::default(),
+            first_bend,
             bends,
-            readers: HashMap::new(),
-        };
-        for (position, state) in system.states.iter().enumerate() {
-            for (location, &node) in state.rate.by_location.iter().enumerate() {
-                for leaf in gather.closure([node]) {
-                    gather.readers.entry(leaf).or_default().push((StateIndex::new(position), location));
-                }
-            }
+            readers: Table::from_pairs(incidence.leaves(), &pairs),
+            incidence,
         }
-        gather
+    }
+
+    /// The rates that read a leaf, directly or through algebraic variables.
+    pub(crate) fn readers(&self, leaf: Leaf) -> &[Selection] {
+        self.incidence.number(leaf).map_or(&[], |number| self.readers.row(number))
     }
 
     /// The entries that evaluate, in every combination of locations, the rates that read one of `leaves`.
     pub(crate) fn influence(&mut self, leaves: &[Leaf]) -> Range<u32> {
-        let mut selected: BTreeMap<AutomatonIndex, Vec<Vec<StateIndex>>> = BTreeMap::new();
-        for (state, location) in leaves.iter().filter_map(|leaf| self.readers.get(leaf)).flatten() {
-            let row = &self.system.states[state.position()].rate;
-            let rows = selected.entry(row.owner).or_insert_with(|| vec![Vec::new(); row.by_location.len()]);
-            rows[*location].push(*state);
-        }
-        for states in selected.values_mut().flatten() {
-            states.sort_unstable();
-            states.dedup();
-        }
+        let selected = leaves.iter().flat_map(|&leaf| self.readers(leaf)).copied().collect();
         self.entries_for(selected)
     }
 
-    /// The entries that evaluate the rates of some states, given in order.
+    /// The entries that evaluate the rates of some states.
     pub(crate) fn all_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
-        let mut selected: BTreeMap<AutomatonIndex, Vec<Vec<StateIndex>>> = BTreeMap::new();
+        let mut selected = Vec::new();
         for state in states {
             let row = &self.system.states[state.position()].rate;
-            let rows = selected.entry(row.owner).or_insert_with(|| vec![Vec::new(); row.by_location.len()]);
-            rows.iter_mut().for_each(|rows| rows.push(state));
+            let locations = 0..row.by_location.len() as u32;
+            selected.extend(locations.map(|location| Selection { owner: row.owner, location, state }));
         }
         self.entries_for(selected)
     }
 
-    fn entries_for(&mut self, selected: BTreeMap<AutomatonIndex, Vec<Vec<StateIndex>>>) -> Range<u32> {
-        let mut nodes = Vec::new();
-        for by_location in selected.values() {
-            for (location, states) in by_location.iter().enumerate() {
-                nodes.extend(self.rate_nodes(states, location));
-            }
-        }
-        let needed = self.algebraics_below(nodes, false);
+    fn entries_for(&mut self, mut selected: Vec<Selection>) -> Range<u32> {
+        selected.sort_unstable();
+        selected.dedup();
+        let nodes = selected.iter().map(|s| rate(self.system, *s));
+        let needed = self.incidence.algebraics_below(nodes);
         let mut entries: Vec<Entry> = needed.into_iter().map(|z| self.algebraic_block(z)).collect();
-        for (owner, rows) in selected {
-            entries.push(self.block(owner, rows));
+        for of_owner in selected.chunk_by_mut(|a, b| a.owner == b.owner) {
+            let locations = of_owner.chunk_by(|a, b| a.location == b.location);
+            if locations.map(<[_]>::len).max() <= Some(MOST_ROWS) {
+                entries.push(self.block(of_owner));
+            } else {
+                of_owner.sort_unstable_by_key(|s| (s.state, s.location));
+                entries.extend(of_owner.chunk_by(|a, b| a.state == b.state).map(|one| self.block(one)));
+            }
         }
         let start = self.entries.len() as u32;
         self.entries.extend(entries);
         start..self.entries.len() as u32
     }
 
-    fn rate_nodes(&self, states: &[StateIndex], location: usize) -> Vec<NodeId> {
-        let location = LocationIndex::new(location);
-        states.iter().map(|s| self.system.states[s.position()].rate.at(location)).collect()
-    }
-
-    fn block(&mut self, owner: AutomatonIndex, rows: Vec<Vec<StateIndex>>) -> Entry {
-        let key = (owner, rows);
-        if let Some(&known) = self.known.get(&key) {
-            return known;
-        }
-        let mut made = Vec::new();
-        for (location, states) in key.1.iter().enumerate() {
-            let nodes = self.rate_nodes(states, location);
-            let (program, results) = self.program(Side::Quantised, &nodes);
-            let sources = self.direct_sources(&nodes);
-            let start = self.rows.len() as u32;
-            let mut bends = false;
-            for (&state, result) in states.iter().zip(results) {
-                let row_bends = self.bends[state.position()][location];
-                bends |= row_bends;
-                self.rows.push(RowResult { state, result, bends: row_bends });
+    /// The blocks, one per location in a row, of some rates of one automaton, ordered by location.
+    fn block(&mut self, selected: &[Selection]) -> Entry {
+        let owner = selected[0].owner;
+        let mut hasher = FxHasher::default();
+        selected.hash(&mut hasher);
+        let mut hash = hasher.finish();
+        while let Some(&known) = self.known.get(&hash) {
+            if known.owner == owner && self.holds(known, selected) {
+                return known;
             }
-            made.push(Block { program, sources, rows: start..self.rows.len() as u32, bends });
+            hash = hash.wrapping_add(1);
         }
         let entry = Entry { owner, first: self.blocks.len() as u32 };
-        self.blocks.extend(made);
-        self.known.insert(key, entry);
+        let mut rest = selected;
+        for location in 0..self.system.automata[owner.position()].locations.len() as u32 {
+            let (here, others) = rest.split_at(rest.partition_point(|s| s.location == location));
+            rest = others;
+            let nodes: Vec<NodeId> = here.iter().map(|s| rate(self.system, *s)).collect();
+            let call = self.request(Side::Quantised, &nodes, None);
+            let sources = sources(self.shapes.leaves(), self.memory.layout, &mut self.sources);
+            let start = self.rows.len() as u32;
+            self.rows.extend(here.iter().map(|s| RowResult {
+                state: s.state,
+                result: RESULT,
+                bends: self.bends[(self.first_bend[s.state.position()] + s.location) as usize],
+            }));
+            let rows = start..self.rows.len() as u32;
+            let bends = self.rows[start as usize..].iter().any(|row| row.bends);
+            self.blocks.push(Block { call, sources, rows, bends });
+        }
+        self.known.insert(hash, entry);
         entry
+    }
+
+    /// Whether the blocks of an entry hold exactly these rates.
+    fn holds(&self, entry: Entry, selected: &[Selection]) -> bool {
+        let locations = self.system.automata[entry.owner.position()].locations.len() as u32;
+        let held = (0..locations).flat_map(|location| {
+            let block = &self.blocks[(entry.first + location) as usize];
+            let rows = &self.rows[block.rows.start as usize..block.rows.end as usize];
+            rows.iter().map(move |row| (location, row.state))
+        });
+        held.eq(selected.iter().map(|s| (s.location, s.state)))
     }
 
     /// The entry that evaluates an algebraic variable on the quantised side.
     fn algebraic_block(&mut self, z: usize) -> Entry {
-        if let Some(&known) = self.algebraic_entries.get(&(Side::Quantised, z, false)) {
+        if let Some(known) = self.algebraics[0][z] {
             return known;
         }
-        let row = self.system.algebraics[z].value.clone();
+        let row = &self.system.algebraics[z].value;
         let to = self.memory.algebraic(Side::Quantised, z);
-        let mut made = Vec::new();
-        for &node in &row.by_location {
-            let program = self.storing(Side::Quantised, node, to);
-            let sources = self.direct_sources(&[node]);
-            made.push(Block { program, sources, rows: 0..0, bends: true });
-        }
         let entry = Entry { owner: row.owner, first: self.blocks.len() as u32 };
-        self.blocks.extend(made);
-        self.algebraic_entries.insert((Side::Quantised, z, false), entry);
+        for &node in &row.by_location {
+            let call = self.request(Side::Quantised, &[node], Some(to));
+            let sources = sources(self.shapes.leaves(), self.memory.layout, &mut self.sources);
+            self.blocks.push(Block { call, sources, rows: 0..0, bends: true });
+        }
+        self.algebraics[0][z] = Some(entry);
         entry
     }
 
-    /// The programs, one per location in a row, that evaluate an algebraic variable on the series side.
-    fn algebraic_programs(&mut self, z: usize, plain: bool) -> Entry {
-        if let Some(&known) = self.algebraic_entries.get(&(Side::Series, z, plain)) {
+    /// The calls, one per location in a row, that evaluate an algebraic variable on the series side.
+    fn algebraic_calls(&mut self, z: usize, plain: bool) -> Entry {
+        if let Some(known) = self.algebraics[1 + usize::from(plain)][z] {
             return known;
         }
         let algebraic = &self.system.algebraics[z];
-        let row = if plain { algebraic.plain.clone() } else { algebraic.value.clone() };
+        let row = if plain { &algebraic.plain } else { &algebraic.value };
         let to = self.memory.algebraic(Side::Series, z);
-        // Made first, appended last: they must stand in a row.
-        let mut made = Vec::new();
+        let entry = Entry { owner: row.owner, first: self.calls.len() as u32 };
         for &node in &row.by_location {
-            let mut compiler = Compiler::new(self.system, &mut self.memory, Side::Series);
-            compiler.store(node, to);
-            made.push(compiler.finish());
+            let call = self.request(Side::Series, &[node], Some(to));
+            self.calls.push(call);
         }
-        let entry = Entry { owner: row.owner, first: self.programs.len() as u32 };
-        self.programs.extend(made);
-        self.algebraic_entries.insert((Side::Series, z, plain), entry);
+        self.algebraics[1 + usize::from(plain)][z] = Some(entry);
         entry
     }
 
     /// A formula on the series side. `plain` formulas (outputs, resets) read switches as written.
     pub(crate) fn formula(&mut self, node: NodeId, plain: bool) -> Formula {
-        let needed = self.algebraics_below([node], plain);
-        let before = needed.iter().map(|&z| self.algebraic_programs(z, plain)).collect();
-        let (program, results) = self.program(Side::Series, &[node]);
-        let mut leaves = self.system.graph.dependencies([node]);
-        for z in needed {
-            let algebraic = &self.system.algebraics[z];
-            let row = if plain { &algebraic.plain } else { &algebraic.value };
-            leaves.extend(self.system.graph.dependencies(row.by_location.iter().copied()));
+        let call = self.request(Side::Series, &[node], None);
+        let leaves = self.incidence.closure_of(self.shapes.leaves(), plain);
+        let sources = sources(leaves, self.memory.layout, &mut self.sources);
+        let needed = algebraics(leaves);
+        let before: Vec<Entry> = needed.into_iter().map(|z| self.algebraic_calls(z, plain)).collect();
+        let start = self.entries.len() as u32;
+        self.entries.extend(before);
+        Formula { call, sources, before: start..self.entries.len() as u32, result: RESULT }
+    }
+
+    /// A formula per location, in a row.
+    pub(crate) fn selected(&mut self, row: &Row, plain: bool) -> Entry {
+        let entry = Entry { owner: row.owner, first: self.formulas.len() as u32 };
+        for &node in &row.by_location {
+            let formula = self.formula(node, plain);
+            self.formulas.push(formula);
         }
-        let sources = self.source_range(&leaves);
-        Formula { program, sources, before, result: results[0] }
+        entry
     }
 
-    /// A formula per location.
-    pub(crate) fn selected(&mut self, row: &Row, plain: bool) -> Selected {
-        let by_location = row.by_location.iter().map(|&node| self.formula(node, plain)).collect();
-        Selected { owner: row.owner, by_location }
+    fn request(&mut self, side: Side, roots: &[NodeId], to: Option<u32>) -> Call {
+        let RequestIndex(request) = self.shapes.request(self.system, &mut self.memory, side, roots, to);
+        Call { program: request, operands: 0..0 }
     }
+}
 
-    fn program(&mut self, side: Side, nodes: &[NodeId]) -> (u32, Vec<sophy_field::Operand>) {
-        let mut compiler = Compiler::new(self.system, &mut self.memory, side);
-        let results: Vec<_> = nodes.iter().map(|&node| compiler.expression(node)).collect();
-        let program = compiler.finish();
-        (self.add(program), results)
-    }
-
-    fn storing(&mut self, side: Side, node: NodeId, to: u32) -> u32 {
-        let mut compiler = Compiler::new(self.system, &mut self.memory, side);
-        compiler.store(node, to);
-        let program = compiler.finish();
-        self.add(program)
-    }
-
-    /// Program 0 is the empty one.
-    fn add(&mut self, program: Program) -> u32 {
-        if program.instructions.is_empty() {
-            return 0;
-        }
-        self.programs.push(program);
-        self.programs.len() as u32 - 1
-    }
-
-    /// Leaves of expressions, through algebraic variables in whatever location.
-    pub(crate) fn closure(&self, nodes: impl IntoIterator<Item = NodeId>) -> BTreeSet<Leaf> {
-        let mut found = BTreeSet::new();
-        let mut pending: Vec<Leaf> = self.system.graph.dependencies(nodes).into_iter().collect();
-        while let Some(leaf) = pending.pop() {
-            if found.insert(leaf)
-                && let Leaf::Algebraic(z) = leaf
-            {
-                let row = &self.system.algebraics[z.position()].value;
-                pending.extend(self.system.graph.dependencies(row.by_location.iter().copied()));
-            }
-        }
-        found
-    }
-
-    /// Algebraic variables below expressions, in the order of evaluation (that of their table).
-    fn algebraics_below(&self, nodes: impl IntoIterator<Item = NodeId>, plain: bool) -> BTreeSet<usize> {
-        let mut found = BTreeSet::new();
-        let mut pending: Vec<Leaf> = self.system.graph.dependencies(nodes).into_iter().collect();
-        while let Some(leaf) = pending.pop() {
-            if let Leaf::Algebraic(z) = leaf
-                && found.insert(z.position())
-            {
-                let algebraic = &self.system.algebraics[z.position()];
-                let row = if plain { &algebraic.plain } else { &algebraic.value };
-                pending.extend(self.system.graph.dependencies(row.by_location.iter().copied()));
-            }
-        }
-        found
-    }
-
-    fn direct_sources(&mut self, nodes: &[NodeId]) -> Range<u32> {
-        let leaves = self.system.graph.dependencies(nodes.iter().copied());
-        self.source_range(&leaves)
-    }
-
-    fn source_range(&mut self, leaves: &BTreeSet<Leaf>) -> Range<u32> {
-        let layout = self.memory.layout;
-        let start = self.sources.len() as u32;
-        self.sources.extend(leaves.iter().filter_map(|&leaf| source_of(leaf, layout)));
-        start..self.sources.len() as u32
-    }
-
-    /// The watches whose truths or stairs expressions read, and those that these need in turn.
-    pub(crate) fn watches_below(&self, nodes: impl IntoIterator<Item = NodeId>) -> BTreeSet<WatchIndex> {
-        let mut found = BTreeSet::new();
-        let mut pending: Vec<Leaf> = self.closure(nodes).into_iter().collect();
-        while let Some(leaf) = pending.pop() {
-            let watches: Vec<WatchIndex> = match leaf {
-                Leaf::Truth(i) => vec![self.system.truths[i.position()].watch],
-                Leaf::Stair(i) => {
-                    let stair = &self.system.stairs[i.position()];
-                    vec![stair.lower, stair.upper]
-                }
-                _ => continue,
-            };
-            for watch in watches {
-                if found.insert(watch) {
-                    pending.extend(self.closure([self.system.watches[watch.position()].difference]));
-                }
-            }
-        }
-        found
-    }
+fn rate(system: &System, selection: Selection) -> NodeId {
+    system.states[selection.state.position()].rate.at(LocationIndex(selection.location))
 }

@@ -1,16 +1,15 @@
 //! The whole path from a flat system to callable equations.
 
+use crate::automata::Owned;
 use crate::blocks::Gather;
 use crate::interpreter::{enclose, run};
-use crate::logic::{self, LogicError};
-use crate::programs::{Memory, source_of};
-use sophy_field::{
-    AlgebraicIndex, AutomatonCode, Equations, Formula, Logic, ParameterIndex, Selected, SourceIndex,
-    StairIndex, StateIndex, TruthIndex, WatchCode, WatchIndex, sign_bit,
-};
-use sophy_ir::{Affine, Comparison, Leaf, NodeId, Row, System, Value, evaluate};
-use sophy_segment::Sign;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::logic;
+use crate::memory::Memory;
+use crate::shapes::{Emitter, Programs, RequestIndex, Sharing};
+use crate::watches::Watching;
+use sophy_field::{Call, Equations, Formula, InputIndex, Logic, ParameterIndex, StateIndex};
+use sophy_ir::{Evaluator, Leaf, System, Value};
+use std::collections::BTreeMap;
 
 /// Callable equations and transitions of one system with one set of parameter values.
 #[derive(Clone, Debug)]
@@ -49,12 +48,14 @@ pub enum CompileError {
         /// The transition.
         transition: String,
     },
-}
-
-impl From<LogicError> for CompileError {
-    fn from(LogicError { transition }: LogicError) -> Self {
-        CompileError::GuardTooDeep { transition }
-    }
+    /// A guard has too many conditions.
+    #[error(
+        "the guard of transition `{transition}` has more than 65536 conditions, those of `if` counted twice"
+    )]
+    GuardTooLong {
+        /// The transition.
+        transition: String,
+    },
 }
 
 /// Makes `system` callable for an engine that needs `order` derivatives of the states (1 for QSS1, 2 for
@@ -63,45 +64,50 @@ impl From<LogicError> for CompileError {
 /// # Errors
 /// [`CompileError`] when a parameter is not finite, or a guard or switch nests too deep.
 pub fn compile(system: &System, knobs: &Parameters, order: u32) -> Result<Compiled, CompileError> {
-    let parameters = parameter_values(system, knobs)?;
-    let mut system = system.clone();
-    let bends = bends(&mut system, order);
-    let system = &system;
-    let mut gather = Gather::new(system, order + 1, bends);
+    compile_sharing(system, knobs, order, Sharing::Usual)
+}
 
-    let source_leaves: Vec<Leaf> = (0..system.states.len())
+/// [`compile`] with a say in when equal equations share a program; the bits of a run do not depend on it.
+///
+/// # Errors
+/// Those of [`compile`].
+pub fn compile_sharing(
+    system: &System,
+    knobs: &Parameters,
+    order: u32,
+    sharing: Sharing,
+) -> Result<Compiled, CompileError> {
+    let (mut evaluator, parameters) = parameter_values(system, knobs)?;
+    let mut gather = Gather::new(system, order);
+
+    // What is to be evaluated when …
+    let sources = (0..system.states.len())
         .map(|i| Leaf::State(StateIndex::new(i)))
-        .chain((0..system.inputs.len()).map(|i| Leaf::Input(sophy_field::InputIndex::new(i))))
-        .chain([Leaf::Time])
-        .collect();
-    let influence = source_leaves.iter().map(|&leaf| gather.influence(&[leaf])).collect();
+        .chain((0..system.inputs.len()).map(|i| Leaf::Input(InputIndex::new(i))))
+        .chain([Leaf::Time]);
+    let influence = sources.map(|leaf| gather.influence(&[leaf])).collect();
     let own = (0..system.states.len()).map(|s| gather.all_of([StateIndex::new(s)])).collect();
-    let on_location = (0..system.automata.len()).map(|a| location_entries(&mut gather, a)).collect();
-    let deciders = Deciders::new(&gather);
-    let on_watch = deciders.decided.iter().map(|decided| gather.influence(decided)).collect();
+    let owned = Owned::new(system);
+    let on_location = (0..system.automata.len()).map(|a| owned.entries(&mut gather, a)).collect();
+    let watching = Watching::new(&mut gather);
+    let on_watch = watching.decided().map(|decided| gather.influence(decided)).collect();
     let rates = system.states.iter().map(|s| gather.selected(&s.rate, false)).collect();
     let outputs = system.outputs.iter().map(|y| gather.selected(&y.value, true)).collect();
-    let watches: Vec<WatchCode> =
-        (0..system.watches.len()).map(|w| watch(&mut gather, &deciders, WatchIndex::new(w))).collect();
-    let logic = logic::compile(&mut gather, &parameters)?;
-    let automata = automata(&gather);
-    let watches_of_source = watches_of_source(&gather);
+    let watches = watching.codes(&mut gather);
+    let mut logic = logic::compile(&mut gather, &mut evaluator, &parameters)?;
+    let automata = owned.automata(&mut gather, &watching);
 
-    let Gather { mut memory, mut programs, blocks, sources, mut rows, entries, .. } = gather;
-    if memory.too_deep {
-        return Err(CompileError::TooDeep { system: system.name.clone() });
-    }
-    memory.finish(&mut programs);
-    for row in &mut rows {
-        row.result = memory.place(row.result);
-    }
+    // … and by which programs.
+    let Gather { mut memory, shapes, mut blocks, mut calls, formulas, sources, rows, entries, .. } = gather;
     let mut equations = Equations {
         layout: memory.layout,
-        image: image(system, &memory, &parameters),
+        image: Vec::new(),
         run,
         enclose,
-        programs,
-        blocks,
+        programs: Vec::new(),
+        operands: Vec::new(),
+        calls: Vec::new(),
+        blocks: Vec::new(),
         sources,
         rows,
         entries,
@@ -111,23 +117,62 @@ pub fn compile(system: &System, knobs: &Parameters, order: u32) -> Result<Compil
         on_watch,
         automata,
         watches,
-        watches_of_source,
+        stairs: system.stairs.iter().map(|stair| [stair.lower, stair.upper]).collect(),
+        watches_of_source: watching.of_sources(),
+        formulas,
         rates,
         outputs,
     };
-    let mut logic = logic;
-    place_formulas(&memory, &mut equations, &mut logic);
+    let mut emitter = Emitter::new(system, &mut memory, shapes, sharing);
+    let mut results = Vec::new();
+    let mut answer = |call: &mut Call| {
+        results.clear();
+        *call = emitter.call(RequestIndex(call.program), &mut results);
+        results.clone()
+    };
+    for block in &mut blocks {
+        let places = answer(&mut block.call);
+        let rows = &mut equations.rows[block.rows.start as usize..block.rows.end as usize];
+        for (row, place) in rows.iter_mut().zip(places) {
+            row.result = place;
+        }
+    }
+    for call in &mut calls {
+        answer(call);
+    }
+    let mut place = |formula: &mut Formula| {
+        if let [result] = answer(&mut formula.call)[..] {
+            formula.result = result;
+        }
+    };
+    equations.formulas.iter_mut().for_each(&mut place);
+    for watch in &mut equations.watches {
+        [&mut watch.formula, &mut watch.left, &mut watch.right].into_iter().for_each(&mut place);
+    }
+    for transition in &mut logic.transitions {
+        transition.resets.iter_mut().for_each(|(_, formula)| place(formula));
+        transition.emits.iter_mut().filter_map(|emission| emission.when.as_mut()).for_each(&mut place);
+    }
+    let Programs { programs, operands, temporaries, too_deep } = emitter.finish();
+    if too_deep {
+        return Err(CompileError::TooDeep { system: system.name.clone() });
+    }
+    equations.layout.length = memory.end() + temporaries;
+    equations.image = image(system, &memory, &mut evaluator, &parameters, equations.layout.length);
+    let equations = Equations { programs, operands, blocks, calls, ..equations };
     Ok(Compiled { equations, logic, parameters })
 }
 
 /// Every parameter in order; those that a knob does not set are evaluated from earlier ones.
-fn parameter_values(system: &System, knobs: &Parameters) -> Result<Vec<f64>, CompileError> {
+fn parameter_values(system: &System, knobs: &Parameters) -> Result<(Evaluator, Vec<f64>), CompileError> {
+    let mut evaluator = Evaluator::default();
     let mut values: Vec<f64> = Vec::with_capacity(system.parameters.len());
     for (position, parameter) in system.parameters.iter().enumerate() {
         let value = match knobs.get(&ParameterIndex::new(position)) {
             Some(&knob) => knob,
             None => {
-                evaluate(&system.graph, parameter.value, &mut |leaf| parameter_leaf(leaf, &values)).real()
+                let mut leaf = |leaf| parameter_leaf(leaf, &values);
+                evaluator.value(&system.graph, parameter.value, &mut leaf).real()
             }
         };
         if !value.is_finite() {
@@ -135,252 +180,30 @@ fn parameter_values(system: &System, knobs: &Parameters) -> Result<Vec<f64>, Com
         }
         values.push(value);
     }
-    Ok(values)
+    Ok((evaluator, values))
 }
 
-fn parameter_leaf(leaf: Leaf, values: &[f64]) -> Value {
+pub(crate) fn parameter_leaf(leaf: Leaf, values: &[f64]) -> Value {
     match leaf {
         Leaf::Parameter(i) => Value::Real(values.get(i.position()).copied().unwrap_or(f64::NAN)),
         _ => Value::Real(f64::NAN),
     }
 }
 
-/// Where, between events, a rate is not the polynomial that an engine of this order takes it for: an
-/// engine of order 1 holds it constant (so inputs and time bend it), one of order 2 linear.
-fn bends(system: &mut System, order: u32) -> Vec<Vec<bool>> {
-    let rows: Vec<Row> = system.states.iter().map(|s| s.rate.clone()).collect();
-    rows.iter()
-        .map(|row| {
-            row.by_location
-                .iter()
-                .map(|&node| match order {
-                    1 => system
-                        .row_sources(&Row { owner: row.owner, by_location: vec![node], spans: vec![None] })
-                        .iter()
-                        .any(|leaf| matches!(leaf, Leaf::Input(_) | Leaf::Time)),
-                    _ => !is_affine(system, node),
-                })
-                .collect()
-        })
-        .collect()
-}
-
-fn is_affine(system: &mut System, node: NodeId) -> bool {
-    let form: Option<Affine> = system.graph.affine(node, &|leaf| {
-        matches!(leaf, Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_))
-    });
-    let Some(form) = form else { return false };
-    form.terms.keys().all(|leaf| match leaf {
-        Leaf::Algebraic(z) => {
-            let nodes = system.algebraics[z.position()].value.by_location.clone();
-            nodes.into_iter().all(|node| is_affine(system, node))
-        }
-        _ => true,
-    })
-}
-
-/// What to evaluate when an automaton changes its location: its own rates, and those of others that read its
-/// algebraic variables.
-fn location_entries(gather: &mut Gather<'_>, automaton: usize) -> std::ops::Range<u32> {
-    let system = gather.system;
-    let mut states: BTreeSet<StateIndex> = (0..system.states.len())
-        .filter(|&s| system.states[s].rate.owner.position() == automaton)
-        .map(StateIndex::new)
-        .collect();
-    for (z, algebraic) in system.algebraics.iter().enumerate() {
-        if algebraic.value.owner.position() == automaton {
-            let readers = gather.readers.get(&Leaf::Algebraic(AlgebraicIndex::new(z)));
-            states.extend(readers.into_iter().flatten().map(|(state, _)| *state));
-        }
-    }
-    gather.all_of(states)
-}
-
-/// Who decides what, and who reads it.
-struct Deciders {
-    /// Per watch: the truths and stairs it decides.
-    decided: Vec<Vec<Leaf>>,
-    /// Per watch: the watches that read what it decides.
-    dependents: Vec<Vec<WatchIndex>>,
-    /// Per watch: whether a guard reads what it decides.
-    guards: Vec<bool>,
-}
-
-impl Deciders {
-    fn new(gather: &Gather<'_>) -> Self {
-        let system = gather.system;
-        let count = system.watches.len();
-        let mut decided = vec![Vec::new(); count];
-        for (i, truth) in system.truths.iter().enumerate() {
-            decided[truth.watch.position()].push(Leaf::Truth(TruthIndex::new(i)));
-        }
-        for (i, stair) in system.stairs.iter().enumerate() {
-            for watch in [stair.lower, stair.upper] {
-                decided[watch.position()].push(Leaf::Stair(StairIndex::new(i)));
-            }
-        }
-        let deciders = |leaf: Leaf| match leaf {
-            Leaf::Truth(i) => vec![system.truths[i.position()].watch],
-            Leaf::Stair(i) => {
-                vec![system.stairs[i.position()].lower, system.stairs[i.position()].upper]
-            }
-            _ => Vec::new(),
-        };
-        let mut dependents = vec![Vec::new(); count];
-        for (position, watch) in system.watches.iter().enumerate() {
-            let read: BTreeSet<WatchIndex> =
-                gather.closure([watch.difference]).into_iter().flat_map(deciders).collect();
-            for decider in read {
-                dependents[decider.position()].push(WatchIndex::new(position));
-            }
-        }
-        let mut guards = vec![false; count];
-        for guard in system.transitions.iter().filter_map(|t| t.trigger.guard()) {
-            for decider in system.graph.dependencies([guard]).into_iter().flat_map(deciders) {
-                guards[decider.position()] = true;
-            }
-        }
-        Deciders { decided, dependents, guards }
-    }
-}
-
-/// The signs of `left − right` for which a comparison holds.
-pub(crate) fn signs_of(comparison: Comparison) -> u8 {
-    let (minus, zero, plus) = (sign_bit(Sign::Negative), sign_bit(Sign::Zero), sign_bit(Sign::Positive));
-    match comparison {
-        Comparison::Less => minus,
-        Comparison::LessEqual => minus | zero,
-        Comparison::Greater => plus,
-        Comparison::GreaterEqual => plus | zero,
-        Comparison::Equal => zero,
-        Comparison::NotEqual => minus | plus,
-    }
-}
-
-fn watch(gather: &mut Gather<'_>, deciders: &Deciders, index: WatchIndex) -> WatchCode {
-    let system = gather.system;
-    let watch = &system.watches[index.position()];
-    let decided = &deciders.decided[index.position()];
-    let truths = decided.iter().filter_map(|leaf| match leaf {
-        Leaf::Truth(i) => Some((i.0, signs_of(system.truths[i.position()].comparison))),
-        _ => None,
-    });
-    let stair = decided.iter().find_map(|leaf| match leaf {
-        Leaf::Stair(i) => {
-            let step = if system.stairs[i.position()].lower == index { -1.0 } else { 1.0 };
-            Some((i.0, step))
-        }
-        _ => None,
-    });
-    WatchCode {
-        truths: truths.collect(),
-        stair,
-        dependents: deciders.dependents[index.position()].clone(),
-        guard: deciders.guards[index.position()],
-        affine: watch.affine,
-        formula: gather.formula(watch.difference, false),
-        left: gather.formula(watch.left, false),
-        right: gather.formula(watch.right, false),
-    }
-}
-
-fn automata(gather: &Gather<'_>) -> Vec<AutomatonCode> {
-    let system = gather.system;
-    system
-        .automata
-        .iter()
-        .enumerate()
-        .map(|(a, automaton)| {
-            let states: Vec<StateIndex> = (0..system.states.len())
-                .filter(|&s| system.states[s].rate.owner.position() == a)
-                .map(StateIndex::new)
-                .collect();
-            let locations = 0..automaton.locations.len();
-            AutomatonCode {
-                readers: readers_of(gather, a),
-                armed: locations.clone().map(|l| armed_in(gather, a, l)).collect(),
-                row_of: locations
-                    .map(|l| {
-                        let node = |s: &StateIndex| system.states[s.position()].rate.by_location[l];
-                        states.iter().map(|s| node(s).position() as u32).collect()
-                    })
-                    .collect(),
-                states,
-            }
-        })
-        .collect()
-}
-
-/// Watches that read an algebraic variable of an automaton.
-fn readers_of(gather: &Gather<'_>, automaton: usize) -> Vec<WatchIndex> {
-    let system = gather.system;
-    let owned = |leaf: &Leaf| match leaf {
-        Leaf::Algebraic(z) => system.algebraics[z.position()].value.owner.position() == automaton,
-        _ => false,
-    };
-    let watches = system.watches.iter().enumerate();
-    watches
-        .filter(|(_, watch)| gather.closure([watch.difference]).iter().any(owned))
-        .map(|(position, _)| WatchIndex::new(position))
-        .collect()
-}
-
-/// Watches that a location needs: those of its guards and of the switches in the rows it selects.
-fn armed_in(gather: &Gather<'_>, automaton: usize, location: usize) -> Vec<WatchIndex> {
-    let system = gather.system;
-    let rows = system
-        .states
-        .iter()
-        .map(|s| &s.rate)
-        .chain(system.algebraics.iter().map(|z| &z.value))
-        .filter(|row| row.owner.position() == automaton)
-        .map(|row| row.by_location[location]);
-    let outgoing = system.automata[automaton].locations[location].transitions.iter();
-    let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
-    gather.watches_below(rows.chain(guards)).into_iter().collect()
-}
-
-fn watches_of_source(gather: &Gather<'_>) -> Vec<Vec<WatchIndex>> {
-    let layout = gather.memory.layout;
-    let mut by_source = vec![Vec::new(); layout.sources()];
-    for (w, watch) in gather.system.watches.iter().enumerate() {
-        let sources: BTreeSet<SourceIndex> = gather
-            .closure([watch.difference])
-            .into_iter()
-            .filter_map(|leaf| source_of(leaf, layout))
-            .collect();
-        for source in sources {
-            by_source[source.position()].push(WatchIndex::new(w));
-        }
-    }
-    by_source
-}
-
 /// Memory at the start: parameters and the pool of numbers and parametric expressions.
-fn image(system: &System, memory: &Memory, parameters: &[f64]) -> Vec<f64> {
-    let mut image = vec![0.0; memory.layout.length as usize];
+fn image(
+    system: &System,
+    memory: &Memory,
+    evaluator: &mut Evaluator,
+    parameters: &[f64],
+    length: u32,
+) -> Vec<f64> {
+    let mut image = vec![0.0; length as usize];
     let first = memory.parameters as usize;
     image[first..first + parameters.len()].copy_from_slice(parameters);
     for (position, &node) in memory.pooled.iter().enumerate() {
-        image[memory.pool as usize + position] =
-            evaluate(&system.graph, node, &mut |leaf| parameter_leaf(leaf, parameters)).real();
+        let mut leaf = |leaf| parameter_leaf(leaf, parameters);
+        image[memory.pool as usize + position] = evaluator.value(&system.graph, node, &mut leaf).real();
     }
     image
-}
-
-/// Results of formulas get their final places once memory is laid out.
-fn place_formulas(memory: &Memory, equations: &mut Equations, logic: &mut Logic) {
-    let place = |formula: &mut Formula| formula.result = memory.place(formula.result);
-    let all = |selected: &mut Selected| selected.by_location.iter_mut().for_each(place);
-    equations.rates.iter_mut().for_each(all);
-    equations.outputs.iter_mut().for_each(all);
-    for watch in &mut equations.watches {
-        place(&mut watch.formula);
-        place(&mut watch.left);
-        place(&mut watch.right);
-    }
-    for transition in &mut logic.transitions {
-        transition.resets.iter_mut().for_each(|(_, formula)| place(formula));
-        transition.emits.iter_mut().filter_map(|emission| emission.when.as_mut()).for_each(place);
-    }
 }

@@ -7,21 +7,21 @@ use sophy_field::{Code, Program};
 use sophy_segment::Interval;
 
 /// Runs `program` on numbers; see [`sophy_field::Run`].
-pub fn run(program: &Program, memory: &mut [f64], orders: usize) {
-    dispatch(program, memory, orders);
+pub fn run(program: &Program, operands: &[u32], memory: &mut [f64], orders: usize) {
+    dispatch(program, operands, memory, orders);
 }
 
 /// Runs `program` on enclosures; see [`sophy_field::Enclose`].
-pub fn enclose(program: &Program, memory: &mut [Interval], orders: usize) {
-    dispatch(program, memory, orders);
+pub fn enclose(program: &Program, operands: &[u32], memory: &mut [Interval], orders: usize) {
+    dispatch(program, operands, memory, orders);
 }
 
 #[inline]
-fn dispatch<T: Scalar>(program: &Program, memory: &mut [T], orders: usize) {
+fn dispatch<T: Scalar>(program: &Program, operands: &[u32], memory: &mut [T], orders: usize) {
     match orders {
-        1 => execute::<T, 1>(program, memory),
-        2 => execute::<T, 2>(program, memory),
-        _ => execute::<T, 3>(program, memory),
+        1 => execute::<T, 1>(program, operands, memory),
+        2 => execute::<T, 2>(program, operands, memory),
+        _ => execute::<T, 3>(program, operands, memory),
     }
 }
 
@@ -38,7 +38,14 @@ fn store<T: Copy, const N: usize>(memory: &mut [T], at: u32, value: [T; N]) {
     memory[at..at + N].copy_from_slice(&value);
 }
 
-fn execute<T: Scalar, const N: usize>(program: &Program, memory: &mut [T]) {
+fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memory: &mut [T]) {
+    // Behind a scalar stands something too: what is copied with it is never read.
+    let mut to = program.gather;
+    for &operand in operands {
+        let value = load::<T, N>(memory, operand);
+        store(memory, to, value);
+        to += program.stride;
+    }
     let mut next = 0;
     while let Some(instruction) = program.instructions.get(next) {
         next += 1;
@@ -151,6 +158,11 @@ fn execute<T: Scalar, const N: usize>(program: &Program, memory: &mut [T]) {
             }
             Code::Jump => {
                 next = b as usize;
+                continue;
+            }
+            Code::Store => {
+                let value = jet!(a);
+                store(memory, operands[to as usize], value);
                 continue;
             }
         };

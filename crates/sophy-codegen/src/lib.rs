@@ -5,13 +5,19 @@
 //! - One program serves every use: [`interpret`](interpreter) runs it on `f64` jets to any order (so that
 //!   derivatives along the motion are exact), and on intervals for enclosures.
 
+mod automata;
 mod blocks;
 mod compile;
+mod incidence;
 mod interpreter;
 mod jet;
 mod logic;
+mod memory;
 mod programs;
 mod scalar;
+mod shapes;
+mod watches;
 
-pub use compile::{CompileError, Compiled, Parameters, compile};
+pub use compile::{CompileError, Compiled, Parameters, compile, compile_sharing};
 pub use interpreter::{enclose, run};
+pub use shapes::Sharing;

@@ -1,16 +1,21 @@
 //! Transitions: guards become postfix combinations of signs, resets become formulas.
 
 use crate::blocks::Gather;
-use crate::compile::signs_of;
-use sophy_field::{AutomatonIndex, EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode};
-use sophy_ir::{FlatTrigger, Leaf, Node, NodeId, Role, System, Value, evaluate};
+use crate::compile::{CompileError, parameter_leaf};
+use crate::watches::signs_of;
+use sophy_field::{
+    AutomatonIndex, EmissionCode, Guard, GuardStep, Logic, Table, TransitionCode, TriggerCode,
+};
+use sophy_ir::{Evaluator, FlatTrigger, Leaf, Node, NodeId, Role};
 
-/// A guard nests too many conditions.
-pub(crate) struct LogicError {
-    pub(crate) transition: String,
-}
+/// The most steps of a guard: what several of its parts share is written several times.
+const MOST_STEPS: usize = 1 << 16;
 
-pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Logic, LogicError> {
+pub(crate) fn compile(
+    gather: &mut Gather<'_>,
+    evaluator: &mut Evaluator,
+    parameters: &[f64],
+) -> Result<Logic, CompileError> {
     let system = gather.system;
     let mut logic = Logic {
         receivers: system.events.iter().map(|e| e.receiver.automaton).collect(),
@@ -22,22 +27,20 @@ pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Log
         follows_flag: system.automata.iter().map(|a| a.role == Role::Flag).collect(),
         ..Logic::default()
     };
-    let mut readers: Vec<Vec<AutomatonIndex>> = vec![Vec::new(); system.watches.len()];
+    let mut readers: Vec<(u32, AutomatonIndex)> = Vec::new();
     for transition in &system.transitions {
         let mut guard = Guard::default();
         match transition.trigger.guard() {
-            Some(node) => guard_steps(system, node, parameters, &mut guard.steps),
+            Some(node) => guard_steps(gather, evaluator, node, parameters, &mut guard.steps),
             None => guard.steps.push(GuardStep::Constant(true)),
         }
+        if guard.steps.len() >= MOST_STEPS {
+            return Err(CompileError::GuardTooLong { transition: transition.name.clone() });
+        }
         if guard.depth() > 64 {
-            return Err(LogicError { transition: transition.name.clone() });
+            return Err(CompileError::GuardTooDeep { transition: transition.name.clone() });
         }
-        for watch in guard.watches() {
-            let automata = &mut readers[watch.position()];
-            if !automata.contains(&transition.automaton) {
-                automata.push(transition.automaton);
-            }
-        }
+        readers.extend(guard.watches().map(|watch| (watch.0, transition.automaton)));
         let trigger = match &transition.trigger {
             FlatTrigger::When(_) => TriggerCode::When(guard),
             FlatTrigger::On { events, .. } => TriggerCode::On(events.clone(), guard),
@@ -63,7 +66,9 @@ pub(crate) fn compile(gather: &mut Gather<'_>, parameters: &[f64]) -> Result<Log
             silent: transition.silent,
         });
     }
-    logic.automata_of_watch = readers;
+    readers.sort_unstable();
+    readers.dedup();
+    logic.automata_of_watch = Table::from_pairs(system.watches.len(), &readers);
     Ok(logic)
 }
 
@@ -73,10 +78,20 @@ enum Task {
     Write(GuardStep),
 }
 
-/// A guard in postfix form, by a stack of its own: conditions may be chained without limit.
-fn guard_steps(system: &System, root: NodeId, parameters: &[f64], steps: &mut Vec<GuardStep>) {
+/// A guard in postfix form, by a stack of its own: conditions may be chained up to [`MOST_STEPS`].
+fn guard_steps(
+    gather: &Gather<'_>,
+    evaluator: &mut Evaluator,
+    root: NodeId,
+    parameters: &[f64],
+    steps: &mut Vec<GuardStep>,
+) {
+    let system = gather.system;
     let mut tasks = vec![Task::Visit(root)];
     while let Some(task) = tasks.pop() {
+        if steps.len() >= MOST_STEPS {
+            return;
+        }
         let node = match task {
             Task::Write(step) => {
                 steps.push(step);
@@ -106,14 +121,9 @@ fn guard_steps(system: &System, root: NodeId, parameters: &[f64], steps: &mut Ve
                 Task::Visit(a),
                 Task::Visit(c),
             ]),
-            _ if system.is_parametric(node) => {
-                let mut leaf = |leaf: Leaf| match leaf {
-                    Leaf::Parameter(i) => {
-                        Value::Real(parameters.get(i.position()).copied().unwrap_or(f64::NAN))
-                    }
-                    _ => Value::Real(f64::NAN),
-                };
-                let value = evaluate(&system.graph, node, &mut leaf).boolean();
+            _ if gather.memory.is_parametric(node) => {
+                let mut leaf = |leaf| parameter_leaf(leaf, parameters);
+                let value = evaluator.value(&system.graph, node, &mut leaf).boolean();
                 steps.push(GuardStep::Constant(value));
             }
             // A number used as a condition does not pass the checks.

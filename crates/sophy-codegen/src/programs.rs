@@ -1,38 +1,8 @@
 //! One expression (or several that share subexpressions) → one program.
 
-use sophy_field::{Code, Instruction, Layout, Operand, Program, SourceIndex};
-use sophy_ir::{Binary, Comparison, Leaf, Node, NodeId, System, Unary};
-use std::collections::{BTreeSet, HashMap};
-
-/// Marks an offset into the temporaries, whose place in memory is known only when all is compiled.
-const TEMPORARY: u32 = 1 << 31;
-
-/// Which jets a program reads: q for rates, x for guards, resets and outputs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Side {
-    Quantised,
-    Series,
-}
-
-/// Where everything that outlives a program stands.
-pub(crate) struct Memory {
-    pub(crate) layout: Layout,
-    /// First jet of the algebraic variables, per side.
-    pub(crate) algebraics: [u32; 2],
-    /// First parameter.
-    pub(crate) parameters: u32,
-    /// First of the pool of numbers and parametric expressions.
-    pub(crate) pool: u32,
-    /// Parametric expressions and numbers in the pool, in order.
-    pub(crate) pooled: Vec<NodeId>,
-    known: HashMap<NodeId, u32>,
-    /// Whether an expression is over parameters only, remembered.
-    parametric: HashMap<NodeId, bool>,
-    /// The most temporaries (numbers) any program needs.
-    pub(crate) temporaries: u32,
-    /// Whether switches nest deeper than [`DEEPEST`] or a program with them is longer than [`LONGEST`].
-    pub(crate) too_deep: bool,
-}
+use crate::memory::{Memory, Side};
+use sophy_field::{Code, Instruction, Operand, Program};
+use sophy_ir::{Binary, Comparison, Node, NodeId, System, Unary};
 
 /// How deep switches may nest: each level is one of recursion.
 const DEEPEST: usize = 256;
@@ -40,112 +10,139 @@ const DEEPEST: usize = 256;
 /// How long a program with switches may become: what branches of branches share is written more than once.
 const LONGEST: usize = 1 << 20;
 
-impl Memory {
-    pub(crate) fn new(system: &System, width: u32) -> Self {
-        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX / 8);
-        let (states, inputs) = (count(system.states.len()), count(system.inputs.len()));
-        let sources = (states + inputs + 1) * width;
-        let algebraics = count(system.algebraics.len()) * width;
-        let truths = 2 * sources + 2 * algebraics;
-        let stairs = truths + count(system.truths.len());
-        let parameters = stairs + count(system.stairs.len());
-        Memory {
-            layout: Layout {
-                width,
-                states,
-                inputs,
-                quantised: 0,
-                series: sources,
-                truths,
-                stairs,
-                length: 0,
-            },
-            algebraics: [2 * sources, 2 * sources + algebraics],
-            parameters,
-            pool: parameters + count(system.parameters.len()),
-            pooled: Vec::new(),
-            known: HashMap::new(),
-            parametric: HashMap::new(),
+/// Compiles programs, one after the other.
+pub(crate) struct Compiler<'a> {
+    system: &'a System,
+    /// Numbers per jet.
+    width: u32,
+    /// First temporary.
+    base: u32,
+    program: Program,
+    /// Per node: where its value stands, if it is computed so far.
+    known: Vec<Option<Operand>>,
+    /// The nodes that are known, in the order in which they became so: what a branch computes is forgotten
+    /// when it ends.
+    log: Vec<NodeId>,
+    /// How many branches enclose what is compiled.
+    depth: usize,
+    /// Per node: the last walk that found it.
+    seen: Vec<u32>,
+    walk: u32,
+    used: u32,
+    /// The most temporaries (numbers) any program needs.
+    pub(crate) temporaries: u32,
+    /// Whether switches nest deeper than [`DEEPEST`] or a program with them is longer than [`LONGEST`].
+    pub(crate) too_deep: bool,
+}
+
+impl<'a> Compiler<'a> {
+    pub(crate) fn new(system: &'a System, width: u32, base: u32) -> Self {
+        Compiler {
+            system,
+            width,
+            base,
+            program: Program::default(),
+            known: vec![None; system.graph.len()],
+            log: Vec::new(),
+            depth: 0,
+            seen: vec![0; system.graph.len()],
+            walk: 0,
+            used: 0,
             temporaries: 0,
             too_deep: false,
         }
     }
 
-    /// The scalar that holds a parametric expression.
-    fn pooled(&mut self, node: NodeId) -> u32 {
-        if let Some(&known) = self.known.get(&node) {
-            return known;
+    /// Begins a program that gathers this many operands.
+    pub(crate) fn begin(&mut self, operands: u32) {
+        self.forget(0);
+        self.program = Program { instructions: Vec::new(), gather: self.base, stride: self.width };
+        self.used = operands * self.width;
+    }
+
+    /// Says that the operand of this number is the value of `node`.
+    pub(crate) fn gathered(&mut self, node: NodeId, number: u32, jet: bool) {
+        let at = self.base + number * self.width;
+        self.remember(node, if jet { Operand::Jet(at) } else { Operand::Scalar(at) });
+    }
+
+    /// Computes `roots`; where their values stand once the program has run. One root may be stored in the jet
+    /// at `to`.
+    pub(crate) fn compile(
+        &mut self,
+        memory: &mut Memory,
+        side: Side,
+        roots: &[NodeId],
+        to: Option<u32>,
+    ) -> Vec<Operand> {
+        let mut step = Step { memory, side, compiler: self };
+        if let Some(to) = to {
+            roots.iter().for_each(|&root| step.store(root, to));
+            return Vec::new();
         }
-        let at = self.pool + self.pooled.len() as u32;
-        self.pooled.push(node);
-        self.known.insert(node, at);
-        at
+        roots.iter().map(|&root| step.expression(root)).collect()
     }
 
-    /// The jet of an algebraic variable.
-    pub(crate) fn algebraic(&self, side: Side, index: usize) -> u32 {
-        self.algebraics[side as usize] + index as u32 * self.layout.width
-    }
-
-    /// Temporaries start behind the pool; memory ends behind them.
-    pub(crate) fn finish(&mut self, programs: &mut [Program]) {
-        let base = self.pool + self.pooled.len() as u32;
-        let place = |at: &mut u32| {
-            if *at & TEMPORARY != 0 {
-                *at = (*at & !TEMPORARY) + base;
-            }
-        };
-        for instruction in programs.iter_mut().flat_map(|p| &mut p.instructions) {
-            place(&mut instruction.to);
-            place(&mut instruction.a);
-            if !matches!(instruction.code, Code::IntegerPower | Code::Jump | Code::JumpIfZero) {
-                place(&mut instruction.b);
-            }
+    /// Computes a root and stores it in the operand of this number.
+    pub(crate) fn compile_stored(
+        &mut self,
+        memory: &mut Memory,
+        side: Side,
+        roots: &[NodeId],
+        number: u32,
+    ) -> Vec<Operand> {
+        for &root in roots {
+            let mut step = Step { memory, side, compiler: self };
+            let value = step.jet(root);
+            self.push(Code::Store, number, value, 0);
         }
-        self.layout.length = base + self.temporaries;
-    }
-
-    /// Gives a result its place in memory.
-    pub(crate) fn place(&self, operand: Operand) -> Operand {
-        let base = self.pool + self.pooled.len() as u32;
-        let place = |at: u32| if at & TEMPORARY != 0 { (at & !TEMPORARY) + base } else { at };
-        match operand {
-            Operand::Jet(at) => Operand::Jet(place(at)),
-            Operand::Scalar(at) => Operand::Scalar(place(at)),
-        }
-    }
-}
-
-/// Compiles expressions of one program.
-pub(crate) struct Compiler<'a> {
-    system: &'a System,
-    memory: &'a mut Memory,
-    side: Side,
-    program: Program,
-    /// What is computed so far, innermost branch last.
-    scopes: Vec<HashMap<NodeId, Operand>>,
-    used: u32,
-}
-
-impl<'a> Compiler<'a> {
-    pub(crate) fn new(system: &'a System, memory: &'a mut Memory, side: Side) -> Self {
-        Compiler { system, memory, side, program: Program::default(), scopes: vec![HashMap::new()], used: 0 }
+        Vec::new()
     }
 
     /// The finished program.
-    pub(crate) fn finish(self) -> Program {
-        self.memory.temporaries = self.memory.temporaries.max(self.used);
-        self.program
+    pub(crate) fn finish(&mut self) -> Program {
+        self.temporaries = self.temporaries.max(self.used);
+        std::mem::take(&mut self.program)
     }
 
+    fn remember(&mut self, node: NodeId, operand: Operand) {
+        self.known[node.position()] = Some(operand);
+        self.log.push(node);
+    }
+
+    fn forget(&mut self, since: usize) {
+        for node in self.log.drain(since..) {
+            self.known[node.position()] = None;
+        }
+    }
+
+    fn temporary(&mut self) -> u32 {
+        let at = self.base + self.used;
+        self.used += self.width;
+        at
+    }
+
+    fn push(&mut self, code: Code, to: u32, a: u32, b: u32) {
+        self.program.instructions.push(Instruction { code, to, a, b });
+    }
+}
+
+/// A compiler at work on one side.
+struct Step<'a, 'b> {
+    compiler: &'b mut Compiler<'a>,
+    memory: &'b mut Memory,
+    side: Side,
+}
+
+impl Step<'_, '_> {
     /// Computes `root` and then copies it to the jet at `to`.
-    pub(crate) fn store(&mut self, root: NodeId, to: u32) {
+    fn store(&mut self, root: NodeId, to: u32) {
         let value = self.expression(root);
         self.copy(value, to);
     }
 
     /// Where the value of `root` stands once the program has run.
-    pub(crate) fn expression(&mut self, root: NodeId) -> Operand {
+    fn expression(&mut self, root: NodeId) -> Operand {
         if let Some(known) = self.known(root) {
             return known;
         }
@@ -158,40 +155,49 @@ impl<'a> Compiler<'a> {
 
     /// Computes a node whose operands are known.
     fn compute(&mut self, id: NodeId) {
-        let operand = self.node(id);
-        if let Some(scope) = self.scopes.last_mut() {
-            scope.insert(id, operand);
+        if self.known(id).is_none() {
+            let operand = self.node(id);
+            self.compiler.remember(id, operand);
         }
     }
 
     fn known(&self, node: NodeId) -> Option<Operand> {
-        self.scopes.iter().rev().find_map(|scope| scope.get(&node)).copied()
+        self.compiler.known[node.position()]
     }
 
     /// What must be computed for `root` whatever its switches say, operands before users, without what is
     /// known and what lies below parametric expressions.
-    fn unconditional(&mut self, root: NodeId) -> BTreeSet<NodeId> {
-        let mut found = BTreeSet::new();
+    fn unconditional(&mut self, root: NodeId) -> Vec<NodeId> {
+        let compiler = &mut *self.compiler;
+        compiler.walk += 1;
+        let mut found = Vec::new();
         let mut pending = vec![root];
         while let Some(id) = pending.pop() {
-            if self.known(id).is_some() || !found.insert(id) || self.is_parametric(id) {
+            let seen = &mut compiler.seen[id.position()];
+            if *seen == compiler.walk || compiler.known[id.position()].is_some() {
                 continue;
             }
-            match self.system.graph.node(id) {
+            *seen = compiler.walk;
+            found.push(id);
+            if self.memory.is_parametric(id) {
+                continue;
+            }
+            match compiler.system.graph.node(id) {
                 Node::Select(condition, ..) => pending.push(condition),
-                _ => self.system.graph.operands(id, |operand| pending.push(operand)),
+                _ => compiler.system.graph.operands(id, |operand| pending.push(operand)),
             }
         }
+        found.sort_unstable();
         found
     }
 
     fn node(&mut self, id: NodeId) -> Operand {
-        if self.is_parametric(id) {
-            return Operand::Scalar(self.memory.pooled(id));
+        if let Some(operand) = self.memory.place(self.compiler.system, self.side, id) {
+            return operand;
         }
-        match self.system.graph.node(id) {
-            Node::Number(_) | Node::Boolean(_) => Operand::Scalar(self.memory.pooled(id)),
-            Node::Leaf(leaf) => self.leaf(leaf),
+        match self.compiler.system.graph.node(id) {
+            // These have a place.
+            Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => Operand::Scalar(self.memory.parameters),
             Node::Unary(function, a) => {
                 let a = self.jet(a);
                 self.emit(unary_code(function), a, 0)
@@ -219,25 +225,6 @@ impl<'a> Compiler<'a> {
                 self.emit_scalar(Code::Or, a, b)
             }
             Node::Select(condition, a, b) => self.select(condition, a, b),
-        }
-    }
-
-    fn leaf(&mut self, leaf: Leaf) -> Operand {
-        let layout = self.memory.layout;
-        let source = |index: u32| {
-            let first = if self.side == Side::Quantised { layout.quantised } else { layout.series };
-            Operand::Jet(first + index * layout.width)
-        };
-        match leaf {
-            Leaf::State(i) => source(i.0),
-            Leaf::Input(i) => source(layout.states + i.0),
-            Leaf::Time => source(layout.states + layout.inputs),
-            Leaf::Parameter(i) => Operand::Scalar(self.memory.parameters + i.0),
-            Leaf::Truth(i) => Operand::Scalar(layout.truths + i.0),
-            Leaf::Stair(i) => Operand::Scalar(layout.stairs + i.0),
-            Leaf::Algebraic(i) => Operand::Jet(self.memory.algebraic(self.side, i.position())),
-            // Only models refer to variables; the verifier has seen to it.
-            Leaf::Variable(_) | Leaf::Special(_) => Operand::Scalar(self.memory.parameters),
         }
     }
 
@@ -299,40 +286,48 @@ impl<'a> Compiler<'a> {
 
     /// Only the branch taken is evaluated.
     fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> Operand {
-        let to = self.temporary();
-        let fits = self.scopes.len() <= DEEPEST && self.program.instructions.len() <= LONGEST;
-        self.memory.too_deep |= !fits;
-        if self.memory.too_deep {
+        let to = self.compiler.temporary();
+        let fits = self.compiler.depth < DEEPEST && self.length() <= LONGEST;
+        self.compiler.too_deep |= !fits;
+        if self.compiler.too_deep {
             return Operand::Jet(to);
         }
         // What both branches need is computed once, before.
         let (then, otherwise) = (self.unconditional(a), self.unconditional(b));
-        for &id in then.intersection(&otherwise) {
-            self.compute(id);
+        for id in then {
+            if otherwise.binary_search(&id).is_ok() {
+                self.compute(id);
+            }
         }
         let condition = self.scalar(condition);
-        let branch = self.program.instructions.len();
-        self.push(Code::JumpIfZero, 0, condition, 0);
+        let branch = self.length();
+        self.compiler.push(Code::JumpIfZero, 0, condition, 0);
         self.branch(a, to);
-        let end = self.program.instructions.len();
-        self.push(Code::Jump, 0, 0, 0);
-        self.program.instructions[branch].b = self.program.instructions.len() as u32;
+        let end = self.length();
+        self.compiler.push(Code::Jump, 0, 0, 0);
+        self.compiler.program.instructions[branch].b = self.length() as u32;
         self.branch(b, to);
-        self.program.instructions[end].b = self.program.instructions.len() as u32;
+        self.compiler.program.instructions[end].b = self.length() as u32;
         Operand::Jet(to)
     }
 
+    fn length(&self) -> usize {
+        self.compiler.program.instructions.len()
+    }
+
     fn branch(&mut self, root: NodeId, to: u32) {
-        self.scopes.push(HashMap::new());
+        let before = self.compiler.log.len();
+        self.compiler.depth += 1;
         self.store(root, to);
-        self.scopes.pop();
+        self.compiler.depth -= 1;
+        self.compiler.forget(before);
     }
 
     fn copy(&mut self, from: Operand, to: u32) {
         match from {
             Operand::Jet(at) if at == to => {}
-            Operand::Jet(at) => self.push(Code::CopyJ, to, at, 0),
-            Operand::Scalar(at) => self.push(Code::Spread, to, at, 0),
+            Operand::Jet(at) => self.compiler.push(Code::CopyJ, to, at, 0),
+            Operand::Scalar(at) => self.compiler.push(Code::Spread, to, at, 0),
         }
     }
 
@@ -345,8 +340,8 @@ impl<'a> Compiler<'a> {
         match operand {
             Operand::Jet(at) => at,
             Operand::Scalar(at) => {
-                let to = self.temporary();
-                self.push(Code::Spread, to, at, 0);
+                let to = self.compiler.temporary();
+                self.compiler.push(Code::Spread, to, at, 0);
                 to
             }
         }
@@ -359,15 +354,9 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    fn temporary(&mut self) -> u32 {
-        let at = self.used | TEMPORARY;
-        self.used += self.memory.layout.width;
-        at
-    }
-
     fn emit(&mut self, code: Code, a: u32, b: u32) -> Operand {
-        let to = self.temporary();
-        self.push(code, to, a, b);
+        let to = self.compiler.temporary();
+        self.compiler.push(code, to, a, b);
         Operand::Jet(to)
     }
 
@@ -375,29 +364,6 @@ impl<'a> Compiler<'a> {
         match self.emit(code, a, b) {
             Operand::Jet(at) | Operand::Scalar(at) => Operand::Scalar(at),
         }
-    }
-
-    fn push(&mut self, code: Code, to: u32, a: u32, b: u32) {
-        self.program.instructions.push(Instruction { code, to, a, b });
-    }
-
-    fn is_parametric(&mut self, node: NodeId) -> bool {
-        if let Some(&known) = self.memory.parametric.get(&node) {
-            return known;
-        }
-        for id in self.system.graph.reachable([node]) {
-            let known = match self.system.graph.node(id) {
-                Node::Leaf(leaf) => matches!(leaf, Leaf::Parameter(_)),
-                _ => {
-                    let mut all = true;
-                    let parametric = &self.memory.parametric;
-                    self.system.graph.operands(id, |operand| all &= parametric[&operand]);
-                    all
-                }
-            };
-            self.memory.parametric.insert(id, known);
-        }
-        self.memory.parametric[&node]
     }
 }
 
@@ -424,15 +390,5 @@ fn unary_code(function: Unary) -> Code {
         Unary::Sign => Code::Sign,
         Unary::Floor => Code::Floor,
         Unary::Smooth => Code::CopyJ,
-    }
-}
-
-/// The sources among leaves: states, inputs and time.
-pub(crate) fn source_of(leaf: Leaf, layout: Layout) -> Option<SourceIndex> {
-    match leaf {
-        Leaf::State(i) => Some(SourceIndex(i.0)),
-        Leaf::Input(i) => Some(SourceIndex(layout.states + i.0)),
-        Leaf::Time => Some(layout.time()),
-        _ => None,
     }
 }

@@ -1,4 +1,6 @@
-use crate::{AutomatonIndex, Enclose, LocationIndex, Operand, Program, Run, StateIndex, WatchIndex};
+use crate::{
+    AutomatonIndex, Call, Enclose, LocationIndex, Operand, Program, Run, StateIndex, Table, WatchIndex,
+};
 use sophy_segment::Interval;
 use std::ops::Range;
 
@@ -11,6 +13,9 @@ use std::ops::Range;
 /// **Blocks** are rows evaluated together with shared subexpressions. [`Equations::influence`] lists, for
 /// each source, the blocks to evaluate when its quantised value changes; an entry of the list names the
 /// automaton whose location selects the block, so that switching locations rewrites nothing.
+///
+/// **Shapes** are programs up to what they read: equal equations share one, and each use has its own operands
+/// ([`Call`]), so that code grows with the number of different equations, not with that of states.
 #[derive(Clone, Debug)]
 pub struct Equations {
     /// Where things stand in memory.
@@ -23,13 +28,17 @@ pub struct Equations {
     pub enclose: Enclose,
     /// All programs.
     pub programs: Vec<Program>,
+    /// Operands of shared programs, by range.
+    pub operands: Vec<u32>,
+    /// Calls that evaluate algebraic variables on the series side: one per location, in a row.
+    pub calls: Vec<Call>,
     /// All blocks.
     pub blocks: Vec<Block>,
     /// Sources read by blocks and formulas, by range.
     pub sources: Vec<SourceIndex>,
     /// Rows computed by blocks, by range.
     pub rows: Vec<RowResult>,
-    /// Entries of the influence lists, in the order of evaluation.
+    /// Entries of the influence lists, in the order of evaluation, and of prerequisites of formulas.
     pub entries: Vec<Entry>,
     /// Per source: its entries.
     pub influence: Vec<Range<u32>>,
@@ -43,12 +52,16 @@ pub struct Equations {
     pub automata: Vec<AutomatonCode>,
     /// Watches; those that read a truth come after the watch that decides it.
     pub watches: Vec<WatchCode>,
+    /// Per stair: the watches that bound it.
+    pub stairs: Vec<[WatchIndex; 2]>,
     /// Per source: the watches that read it, directly or through algebraic variables.
-    pub watches_of_source: Vec<Vec<WatchIndex>>,
-    /// Per state: its rate on the series side (along x), for the Jacobian.
-    pub rates: Vec<Selected>,
-    /// Per output: its value, switches as written.
-    pub outputs: Vec<Selected>,
+    pub watches_of_source: Table<WatchIndex>,
+    /// Formulas chosen by a location: those of one quantity in a row.
+    pub formulas: Vec<Formula>,
+    /// Per state: its rate on the series side (along x), for the Jacobian, among the formulas.
+    pub rates: Vec<Entry>,
+    /// Per output: its value, switches as written, among the formulas.
+    pub outputs: Vec<Entry>,
 }
 
 /// A source: a state, an input or time, in this order.
@@ -111,8 +124,8 @@ impl Layout {
 /// Rows that are evaluated together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Block {
-    /// Index of its program; rows that need none have an empty one.
-    pub program: u32,
+    /// What computes its rows.
+    pub call: Call,
     /// In [`Equations::sources`]: whose quantised jets must be current.
     pub sources: Range<u32>,
     /// In [`Equations::rows`]: what it computes.
@@ -133,11 +146,11 @@ pub struct RowResult {
     pub bends: bool,
 }
 
-/// One step of an influence list: the block `first + location(owner)`.
-/// Prerequisites have smaller `first`.
+/// One of several that stand in a row, by the location of an automaton: the block, call or formula
+/// `first + location(owner)`. In an influence list prerequisites have smaller `first`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry {
-    /// Its block for location 0.
+    /// Its position for location 0.
     pub first: u32,
     /// The automaton whose location selects.
     pub owner: AutomatonIndex,
@@ -159,7 +172,7 @@ pub struct AutomatonCode {
 /// The code of a watch.
 #[derive(Clone, Debug)]
 pub struct WatchCode {
-    /// Blocks of algebraic variables it reads (on the series side), then its own program.
+    /// Its value.
     pub formula: Formula,
     /// Its two sides, for the comparison within rounding on entry.
     pub left: Formula,
@@ -180,26 +193,32 @@ pub struct WatchCode {
 /// A value of series jets at an instant: prerequisites (algebraic variables, by location), then a program.
 #[derive(Clone, Debug)]
 pub struct Formula {
-    /// Index of its program.
-    pub program: u32,
+    /// What computes it.
+    pub call: Call,
     /// In [`Equations::sources`]: whose series jets must be current, prerequisites included.
     pub sources: Range<u32>,
-    /// Programs to run first: owner and program for location 0.
-    pub before: Vec<Entry>,
+    /// In [`Equations::entries`]: the calls to run first.
+    pub before: Range<u32>,
     /// Where the value stands.
     pub result: Operand,
 }
 
-/// A value chosen by the location of one automaton.
-#[derive(Clone, Debug)]
-pub struct Selected {
-    /// Who selects.
-    pub owner: AutomatonIndex,
-    /// One formula per location.
-    pub by_location: Vec<Formula>,
-}
-
 impl Equations {
+    /// Runs a program on its operands.
+    #[inline]
+    pub fn execute(&self, call: &Call, memory: &mut [f64], orders: usize) {
+        (self.run)(&self.programs[call.program as usize], self.operands(call), memory, orders);
+    }
+
+    #[inline]
+    fn operands(&self, call: &Call) -> &[u32] {
+        &self.operands[call.operands.start as usize..call.operands.end as usize]
+    }
+
+    fn execute_enclosed(&self, call: &Call, memory: &mut [Interval], orders: usize) {
+        (self.enclose)(&self.programs[call.program as usize], self.operands(call), memory, orders);
+    }
+
     /// Runs the program of a formula on `memory`, whose series jets must be current, and gives its first
     /// `orders` coefficients. `locations` are the present locations.
     pub fn formula(
@@ -209,11 +228,10 @@ impl Equations {
         memory: &mut [f64],
         orders: usize,
     ) -> [f64; 3] {
-        for entry in &formula.before {
-            let program = entry.first + locations[entry.owner.position()].0;
-            (self.run)(&self.programs[program as usize], memory, orders);
+        for entry in self.entries(&formula.before) {
+            self.execute(&self.calls[entry.at(locations)], memory, orders);
         }
-        (self.run)(&self.programs[formula.program as usize], memory, orders);
+        self.execute(&formula.call, memory, orders);
         self.result(formula.result, memory, orders)
     }
 
@@ -225,11 +243,10 @@ impl Equations {
         memory: &mut [Interval],
     ) -> [Interval; 3] {
         let orders = self.layout.width as usize;
-        for entry in &formula.before {
-            let program = entry.first + locations[entry.owner.position()].0;
-            (self.enclose)(&self.programs[program as usize], memory, orders);
+        for entry in self.entries(&formula.before) {
+            self.execute_enclosed(&self.calls[entry.at(locations)], memory, orders);
         }
-        (self.enclose)(&self.programs[formula.program as usize], memory, orders);
+        self.execute_enclosed(&formula.call, memory, orders);
         let zero = Interval::point(0.0);
         match formula.result {
             Operand::Scalar(offset) => [memory[offset as usize], zero, zero],
@@ -267,12 +284,26 @@ impl Equations {
     /// The block of an entry in the present locations.
     #[inline]
     pub fn block(&self, entry: Entry, locations: &[LocationIndex]) -> &Block {
-        &self.blocks[(entry.first + locations[entry.owner.position()].0) as usize]
+        &self.blocks[entry.at(locations)]
+    }
+
+    /// The formula of an entry (of [`Equations::rates`] or [`Equations::outputs`]) in the present locations.
+    #[inline]
+    pub fn selected(&self, entry: Entry, locations: &[LocationIndex]) -> &Formula {
+        &self.formulas[entry.at(locations)]
     }
 
     /// The sources of a range.
     #[inline]
     pub fn sources(&self, range: &Range<u32>) -> &[SourceIndex] {
         &self.sources[range.start as usize..range.end as usize]
+    }
+}
+
+impl Entry {
+    /// The position in the present locations.
+    #[inline]
+    pub fn at(self, locations: &[LocationIndex]) -> usize {
+        (self.first + locations[self.owner.position()].0) as usize
     }
 }

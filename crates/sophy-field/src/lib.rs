@@ -13,11 +13,12 @@ mod index;
 mod journal;
 mod logic;
 mod program;
+mod table;
 
 pub use agenda::Agenda;
 pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
 pub use equations::{
-    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, Selected, SourceIndex, WatchCode,
+    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, SourceIndex, WatchCode,
 };
 pub use index::{
     AlgebraicIndex, AutomatonIndex, EventIndex, InputIndex, LocationIndex, OutputIndex, ParameterIndex,
@@ -25,4 +26,5 @@ pub use index::{
 };
 pub use journal::{Journal, Record};
 pub use logic::{EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
-pub use program::{Code, Enclose, Instruction, Operand, Program, Run};
+pub use program::{Call, Code, Enclose, Instruction, Operand, Program, Run};
+pub use table::Table;

@@ -1,4 +1,6 @@
-use crate::{AutomatonIndex, EventIndex, Formula, LocationIndex, StateIndex, TransitionIndex, WatchIndex};
+use crate::{
+    AutomatonIndex, EventIndex, Formula, LocationIndex, StateIndex, Table, TransitionIndex, WatchIndex,
+};
 use sophy_segment::Sign;
 
 /// The compiled transitions of a system.
@@ -11,7 +13,7 @@ pub struct Logic {
     /// Per event: the automaton that receives it.
     pub receivers: Vec<AutomatonIndex>,
     /// Per watch: the automata whose guards read it.
-    pub automata_of_watch: Vec<Vec<AutomatonIndex>>,
+    pub automata_of_watch: Table<AutomatonIndex>,
     /// Per automaton: whether its two locations are the sides of a flag, which it follows.
     pub follows_flag: Vec<bool>,
 }

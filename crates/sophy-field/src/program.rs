@@ -1,6 +1,7 @@
 //! Straight-line programs over Taylor coefficients: what the equations of a system are compiled to.
 
 use sophy_segment::Interval;
+use std::ops::Range;
 
 /// One operation on memory. Operands and result are offsets: a *jet* is `width` consecutive numbers (value
 /// and scaled derivatives `x⁽ᵏ⁾/k!`), a *scalar* is one number.
@@ -74,22 +75,41 @@ pub enum Code {
     JumpIfZero,
     /// Continues at instruction `b`.
     Jump,
+    /// Copies jet `a` to the operand of number `to`.
+    Store,
 }
 
-/// A program and how much memory it needs.
+/// A program, absolute or shared.
+///
+/// An *absolute* one names in its instructions the memory it reads. A *shared* one stands for all equations of
+/// one shape, a thousand copies of a component say: each use brings its own table of operands (offsets of
+/// jets and scalars), which are gathered into temporaries before the first instruction.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Program {
     /// Executed from the first on; jumps lead forwards only.
     pub instructions: Vec<Instruction>,
+    /// Where operands are gathered: the first here, each `stride` behind the one before.
+    pub gather: u32,
+    /// See `gather`.
+    pub stride: u32,
+}
+
+/// A program and what it is run on.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Call {
+    /// Index of the program; an empty one where there is nothing to compute.
+    pub program: u32,
+    /// In [`crate::Equations::operands`]: its operands, none if it is absolute.
+    pub operands: Range<u32>,
 }
 
 /// Runs a program on memory, computing `orders` coefficients (1 … width) of every jet.
 ///
 /// Both back ends fill the same pointer, so that nothing above is generic over them.
-pub type Run = fn(program: &Program, memory: &mut [f64], orders: usize);
+pub type Run = fn(program: &Program, operands: &[u32], memory: &mut [f64], orders: usize);
 
 /// The same over intervals: every coefficient becomes an enclosure.
-pub type Enclose = fn(program: &Program, memory: &mut [Interval], orders: usize);
+pub type Enclose = fn(program: &Program, operands: &[u32], memory: &mut [Interval], orders: usize);
 
 /// Where the result of a formula stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

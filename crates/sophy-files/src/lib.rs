@@ -23,9 +23,7 @@ mod path;
 mod plot;
 mod results;
 
-pub use draw::{
-    Arrow, ArrowEnd, BoxKind, Diagram, DiagramBox, DiagramKind, DiagramPort, Line, Symbol, draw,
-};
+pub use draw::{Arrow, ArrowEnd, BoxKind, Diagram, DiagramBox, DiagramKind, DiagramPort, Line, Symbol, draw};
 pub use error::FileError;
 pub use event_log::{EventLog, read_events};
 pub use input::{InputColumns, read_columns, read_event_labels};

@@ -145,6 +145,7 @@ impl Control {
                 break;
             }
             journal.push(Record::Jump { time: t, step });
+            self.changes.clear();
             if !self.chosen.is_empty() {
                 self.collect_changes(engine, e, logic, t);
                 engine.change(e, t, &self.changes, journal)?;
@@ -163,7 +164,9 @@ impl Control {
                 accumulation = accumulation.or(zeno);
             }
             step += 1;
-            if let Some(cycle) = livelock.after(step, engine, e, t, &self.queues, &taken[before..]) {
+            if let Some(cycle) =
+                livelock.after(step, engine, e, t, &self.queues, &self.changes, &taken[before..])
+            {
                 return Err(HybridError::Livelock { time: t, steps: step, cycle, exact: true });
             }
             if step >= self.most_steps {
@@ -181,7 +184,7 @@ impl Control {
         self.changed.clear();
         engine.take_changed(&mut self.changed);
         for watch in &self.changed {
-            for &automaton in &logic.automata_of_watch[watch.position()] {
+            for &automaton in logic.automata_of_watch.row(watch.position()) {
                 self.stale.insert(automaton);
             }
         }
@@ -299,7 +302,6 @@ impl Control {
 
     /// The changes and events of one micro-step, all right-hand sides read before it.
     fn collect_changes(&mut self, engine: &dyn Engine, e: &Equations, logic: &Logic, t: f64) {
-        self.changes.clear();
         for transition in &self.chosen {
             let code = &logic.transitions[transition.position()];
             for (state, formula) in &code.resets {

@@ -1,5 +1,5 @@
 use crate::control::Taken;
-use sophy_field::{Engine, Equations, EventIndex, LocationIndex, SourceIndex, TransitionIndex};
+use sophy_field::{Changes, Engine, Equations, EventIndex, LocationIndex, SourceIndex, TransitionIndex};
 use std::collections::VecDeque;
 
 /// Finds a round of micro-steps that returns exactly to where it began (Brent's algorithm: compare with a
@@ -19,6 +19,7 @@ impl Livelock {
     }
 
     /// Looks at the situation after micro-step `step`; the transitions of the round if it closes.
+    #[allow(clippy::too_many_arguments)] // each is a different part of the situation
     pub(crate) fn after(
         &mut self,
         step: u32,
@@ -26,6 +27,7 @@ impl Livelock {
         e: &Equations,
         t: f64,
         waiting: &[VecDeque<EventIndex>],
+        changes: &Changes,
         taken: &[Taken],
     ) -> Option<Vec<TransitionIndex>> {
         if step < FIRST {
@@ -38,7 +40,18 @@ impl Livelock {
             events.into_iter().chain([u64::MAX])
         };
         let situation = states.chain(locations).chain(waiting.iter().flat_map(queue));
-        if self.kept_at > 0 && situation.clone().eq(self.kept.iter().copied()) {
+        // What the micro-step itself changed tells most situations apart, without looking at all states.
+        let first_location = e.layout.states as usize;
+        let may_return = self.kept_at > 0
+            && changes
+                .states
+                .iter()
+                .all(|(s, _)| self.kept[s.position()] == engine.value(SourceIndex(s.0), t).to_bits())
+            && changes
+                .locations
+                .iter()
+                .all(|(a, location)| self.kept[first_location + a.position()] == u64::from(location.0));
+        if may_return && situation.clone().eq(self.kept.iter().copied()) {
             let round = taken.iter().filter(|taken| taken.step >= self.kept_at && taken.time == t);
             return Some(round.map(|taken| taken.transition).collect());
         }

@@ -37,8 +37,11 @@ const CROWD: usize = 2000;
 impl Zeno {
     /// A transition is taken at `t` (s).
     pub fn taken(&mut self, t: f64, transition: TransitionIndex) -> Option<Accumulation> {
-        if self.history.len() > 2 * CROWD {
-            self.history.drain(..CROWD);
+        // What came before a pause is no crowd; rounds may be as long as they like, but are few.
+        let pause = self.history.last().is_some_and(|last| t - last.0 > RESOLUTION * scale(t));
+        let kept = if pause { (ROUNDS + 1) * LONGEST_CYCLE } else { 2 * CROWD };
+        if self.history.len() > kept {
+            self.history.drain(..self.history.len() - kept.min(CROWD));
         }
         self.history.push((t, transition));
         let n = self.history.len();

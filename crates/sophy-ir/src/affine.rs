@@ -1,6 +1,7 @@
 use crate::arithmetic::{Binary, Unary};
 use crate::graph::{Graph, Leaf, Node, NodeId};
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// Σ coefficient·leaf + constant; coefficients and constant do not depend on the variables.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,18 +19,22 @@ impl Graph {
     /// variable, and switches between affine forms whose condition does not either. `x·x − x·x` is not affine
     /// here, though it is 0.
     pub fn affine(&mut self, root: NodeId, is_variable: &impl Fn(Leaf) -> bool) -> Option<Affine> {
-        let mut known: HashMap<NodeId, Option<Affine>> = HashMap::new();
-        for id in self.reachable([root]) {
-            let form = self.node_affine(id, &known, is_variable);
-            known.insert(id, form);
+        let order = self.reachable([root]);
+        let mut forms = Forms::default();
+        for &id in &order {
+            self.operands(id, |operand| *forms.uses.entry(operand).or_default() += 1);
         }
-        known.remove(&root).flatten()
+        for id in order {
+            let form = self.node_affine(id, &mut forms, is_variable);
+            forms.known.insert(id, form);
+        }
+        forms.known.remove(&root).flatten()
     }
 
     fn node_affine(
         &mut self,
         id: NodeId,
-        known: &HashMap<NodeId, Option<Affine>>,
+        forms: &mut Forms,
         is_variable: &impl Fn(Leaf) -> bool,
     ) -> Option<Affine> {
         let node = self.node(id);
@@ -40,13 +45,11 @@ impl Graph {
             return Some(Affine { terms: BTreeMap::from([(leaf, one)]), constant: None });
         }
         let mut constant = true;
-        self.operands(id, |operand| {
-            constant &= known[&operand].as_ref().is_some_and(|form| form.terms.is_empty());
-        });
+        self.operands(id, |operand| constant &= forms.is_constant(operand));
         if constant {
             return Some(Affine { terms: BTreeMap::new(), constant: Some(id) });
         }
-        let form = |operand: NodeId| known[&operand].clone();
+        let mut form = |operand: NodeId| forms.take(operand);
         match node {
             Node::Unary(Unary::Negate, a) => {
                 let a = form(a)?;
@@ -105,14 +108,46 @@ impl Graph {
             (None, Binary::Subtract) => graph.unary(Unary::Negate, b),
             (None, _) => b,
         };
-        for (leaf, coefficient) in right.terms {
-            let joined = join(self, left.terms.get(&leaf).copied(), coefficient);
-            left.terms.insert(leaf, joined);
+        if how == Binary::Add && left.terms.len() < right.terms.len() {
+            // The shorter into the longer: a sum of many terms may lean to either side.
+            let shorter = std::mem::replace(&mut left.terms, right.terms);
+            for (leaf, coefficient) in shorter {
+                let joined = match left.terms.get(&leaf) {
+                    Some(&other) => self.add(coefficient, other),
+                    None => coefficient,
+                };
+                left.terms.insert(leaf, joined);
+            }
+        } else {
+            for (leaf, coefficient) in right.terms {
+                let joined = join(self, left.terms.get(&leaf).copied(), coefficient);
+                left.terms.insert(leaf, joined);
+            }
         }
         if let Some(constant) = right.constant {
             left.constant = Some(join(self, left.constant, constant));
         }
         left
+    }
+}
+
+/// The forms of the nodes of one expression; each is given away at its last use, so that a sum of many terms
+/// is not copied for each of them.
+#[derive(Default)]
+struct Forms {
+    known: FxHashMap<NodeId, Option<Affine>>,
+    uses: FxHashMap<NodeId, u32>,
+}
+
+impl Forms {
+    fn is_constant(&self, node: NodeId) -> bool {
+        self.known.get(&node).is_some_and(|form| form.as_ref().is_some_and(|form| form.terms.is_empty()))
+    }
+
+    fn take(&mut self, node: NodeId) -> Option<Affine> {
+        let uses = self.uses.entry(node).or_default();
+        *uses = uses.saturating_sub(1);
+        if *uses == 0 { self.known.remove(&node).flatten() } else { self.known.get(&node).cloned().flatten() }
     }
 }
 

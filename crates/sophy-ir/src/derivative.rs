@@ -1,6 +1,6 @@
 use crate::arithmetic::{Binary, Comparison, Unary};
 use crate::graph::{Graph, Leaf, Node, NodeId};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 impl Graph {
     /// ∂`root`/∂`leaf`, or `None` if `root` does not depend on `leaf`.
@@ -18,7 +18,7 @@ impl Graph {
         root: NodeId,
         tangent: &mut impl FnMut(&mut Graph, Leaf) -> Option<NodeId>,
     ) -> Option<NodeId> {
-        let mut known: HashMap<NodeId, Option<NodeId>> = HashMap::new();
+        let mut known: FxHashMap<NodeId, Option<NodeId>> = FxHashMap::default();
         for id in self.reachable([root]) {
             let rate = self.node_rate(id, &known, tangent);
             known.insert(id, rate);
@@ -29,7 +29,7 @@ impl Graph {
     fn node_rate(
         &mut self,
         id: NodeId,
-        known: &HashMap<NodeId, Option<NodeId>>,
+        known: &FxHashMap<NodeId, Option<NodeId>>,
         tangent: &mut impl FnMut(&mut Graph, Leaf) -> Option<NodeId>,
     ) -> Option<NodeId> {
         let rate = |operand: NodeId| known.get(&operand).copied().flatten();

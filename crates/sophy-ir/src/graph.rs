@@ -1,7 +1,8 @@
 use crate::arithmetic::{Binary, Comparison, Unary, integer_power};
 use crate::class::VariableId;
+use rustc_hash::FxBuildHasher;
 use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
-use std::collections::{HashMap, HashSet};
+use std::hash::BuildHasher;
 
 /// A node of a [`Graph`]. Equal expressions of one graph have equal ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -73,7 +74,9 @@ pub enum Node {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    known: HashMap<Node, NodeId>,
+    /// Where to find a node: its position + 1 at the place of its hash or behind (open addressing), 0 where
+    /// there is none. The length is a power of two.
+    known: Vec<u32>,
 }
 
 impl Graph {
@@ -88,19 +91,45 @@ impl Graph {
         self.nodes.len()
     }
 
+    /// All nodes, operands before users.
+    pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
+        (0..u32::try_from(self.nodes.len()).unwrap_or(u32::MAX)).map(NodeId)
+    }
+
     /// Whether nothing was built yet.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
     fn intern(&mut self, node: Node) -> NodeId {
-        if let Some(&id) = self.known.get(&node) {
-            return id;
+        if 2 * self.nodes.len() >= self.known.len() {
+            self.grow();
+        }
+        let mask = self.known.len() - 1;
+        let mut at = hash(&node) & mask;
+        while let Some(position) = self.known[at].checked_sub(1) {
+            if self.nodes[position as usize] == node {
+                return NodeId(position);
+            }
+            at = (at + 1) & mask;
         }
         let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
         self.nodes.push(node);
-        self.known.insert(node, id);
+        self.known[at] = id.0.saturating_add(1);
         id
+    }
+
+    fn grow(&mut self) {
+        let length = (2 * self.known.len()).max(16);
+        let mut known = vec![0; length];
+        for (position, node) in (1..).zip(&self.nodes) {
+            let mut at = hash(node) & (length - 1);
+            while known[at] != 0 {
+                at = (at + 1) & (length - 1);
+            }
+            known[at] = position;
+        }
+        self.known = known;
     }
 
     /// The number of a node, if it is one.
@@ -250,52 +279,6 @@ impl Graph {
         }
     }
 
-    /// All nodes that `roots` need, operands before users, each once. The work is that of what is found, not
-    /// of the whole graph.
-    pub fn reachable(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
-        self.found(roots, |_| true)
-    }
-
-    /// The same without what is inside of `smooth(…)`: the switches there are no events.
-    pub fn reachable_switches(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
-        self.found(roots, |id| !matches!(self.node(id), Node::Unary(Unary::Smooth, _)))
-    }
-
-    fn found(&self, roots: impl IntoIterator<Item = NodeId>, enter: impl Fn(NodeId) -> bool) -> Vec<NodeId> {
-        let mut seen: HashSet<NodeId> = HashSet::new();
-        let mut pending: Vec<NodeId> = roots.into_iter().collect();
-        while let Some(id) = pending.pop() {
-            if seen.insert(id) && enter(id) {
-                self.operands(id, |operand| pending.push(operand));
-            }
-        }
-        let mut found: Vec<NodeId> = seen.into_iter().collect();
-        found.sort_unstable();
-        found
-    }
-
-    /// Copies `root` of `from` into this graph, leaves replaced by `replace` (their nodes in this graph).
-    pub fn import(
-        &mut self,
-        from: &Graph,
-        root: NodeId,
-        replace: &mut impl FnMut(&mut Graph, Leaf) -> NodeId,
-    ) -> NodeId {
-        let mut copied: HashMap<NodeId, NodeId> = HashMap::new();
-        for id in from.reachable([root]) {
-            let get = |operand: NodeId| copied[&operand];
-            let copy = match from.node(id) {
-                Node::Leaf(leaf) => replace(self, leaf),
-                other => {
-                    let mapped = other.map(get);
-                    self.rebuild(mapped)
-                }
-            };
-            copied.insert(id, copy);
-        }
-        copied[&root]
-    }
-
     /// Builds a node through the folding constructors.
     pub fn rebuild(&mut self, node: Node) -> NodeId {
         match node {
@@ -310,6 +293,13 @@ impl Graph {
             Node::Select(c, a, b) => self.select(c, a, b),
         }
     }
+}
+
+/// The quick hash alone is linear in operands, and those of copies are equally spaced: it would crowd them.
+fn hash(node: &Node) -> usize {
+    let quick = FxBuildHasher.hash_one(node);
+    let mixed = (quick ^ quick >> 32).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (mixed >> 20) as usize
 }
 
 impl Node {

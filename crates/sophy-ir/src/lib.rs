@@ -1,7 +1,7 @@
 //! The representations between text and callable equations, with their text forms and verifiers.
 //!
 //! - [`Graph`]: hash-consed expressions; [`Graph::derivative`], [`Graph::affine`],
-//!   [`Graph::dependencies`], [`evaluate`].
+//!   [`Graph::dependencies`], [`evaluate`]; for large systems [`Importer`], [`Reach`], [`Linearity`].
 //! - [`Model`]: what was written: classes of components with their variables, locations and transitions, and
 //!   composites that say how many copies of which there are and how they are connected.
 //! - [`System`]: what is run: one flat hybrid system whose names are typed indices.
@@ -17,6 +17,8 @@ mod derivative;
 mod display;
 mod evaluate;
 mod graph;
+mod import;
+mod linearity;
 mod model;
 mod model_text;
 mod system;
@@ -29,8 +31,11 @@ pub use class::{
     EventEnd, EventPort, EventSection, EventWire, HybridAutomaton, Location, Member, Port, Rule, Sources,
     Special, Transition, Trigger, Variable, VariableId, VariableKind, Wire,
 };
-pub use evaluate::{Value, evaluate};
+pub use dependencies::Reach;
+pub use evaluate::{Evaluator, Value, evaluate};
 pub use graph::{Graph, Leaf, Node, NodeId};
+pub use import::Importer;
+pub use linearity::Linearity;
 pub use model::{Interpolation, Model, Quantity, Table};
 pub use system::{
     Algebraic, Automaton, Awaited, Event, EventInput, Feature, FlatEmission, FlatLocation, FlatReset,

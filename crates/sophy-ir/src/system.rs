@@ -5,7 +5,7 @@ use crate::model::Quantity;
 use sophy_diagnostics::Span;
 use sophy_field::{
     AutomatonIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex,
-    TruthIndex, WatchIndex,
+    WatchIndex,
 };
 use std::fmt;
 
@@ -601,15 +601,5 @@ impl System {
     /// The index of a name, for experiments.
     pub fn input_named(&self, name: &str) -> Option<InputIndex> {
         self.inputs.iter().position(|u| u.name == name).map(InputIndex::new)
-    }
-
-    /// The truth that says `comparison` of a watch, made if it does not exist.
-    pub fn truth(&mut self, watch: WatchIndex, comparison: Comparison) -> TruthIndex {
-        let truth = Truth { watch, comparison };
-        if let Some(known) = self.truths.iter().position(|t| *t == truth) {
-            return TruthIndex::new(known);
-        }
-        self.truths.push(truth);
-        TruthIndex::new(self.truths.len() - 1)
     }
 }

@@ -2,15 +2,24 @@
 //! inside `abs min max sign floor if`, becomes a truth (or a stair) decided by a watch, so that what engines
 //! read is smooth between crossings. Equal arguments share one watch.
 
-use sophy_field::{StairIndex, WatchIndex};
-use sophy_ir::{Binary, Comparison, FlatTrigger, Leaf, Node, NodeId, Row, Stair, System, Unary, Watch};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
+use sophy_field::{AlgebraicIndex, StairIndex, TruthIndex, WatchIndex};
+use sophy_ir::{
+    Binary, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Stair, System, Truth, Unary, Watch,
+};
 
 /// Lifts the kinks of rates, algebraic variables and guards. Outputs and resets keep theirs: they are read
 /// at instants only.
 pub fn lift_kinks(system: &mut System) {
-    let mut lifter =
-        Lifter { lifted: HashMap::new(), parametric: HashMap::new(), watches: HashMap::new(), system };
+    let mut lifter = Lifter {
+        reach: Reach::default(),
+        lifted: Vec::new(),
+        linearity: Linearity::default(),
+        watches: FxHashMap::default(),
+        truths: FxHashMap::default(),
+        stairs: FxHashMap::default(),
+        system,
+    };
     lifter.system();
 }
 
@@ -23,21 +32,33 @@ enum Key {
 
 struct Lifter<'a> {
     system: &'a mut System,
-    lifted: HashMap<NodeId, NodeId>,
-    /// Whether a node depends on parameters and numbers only.
-    parametric: HashMap<NodeId, bool>,
-    watches: HashMap<Key, WatchIndex>,
+    reach: Reach,
+    /// Per node: what it became, and whether it depends on parameters and numbers only.
+    lifted: Vec<Option<Lifted>>,
+    linearity: Linearity,
+    watches: FxHashMap<Key, WatchIndex>,
+    truths: FxHashMap<(WatchIndex, Comparison), TruthIndex>,
+    stairs: FxHashMap<NodeId, StairIndex>,
+}
+
+#[derive(Clone, Copy)]
+struct Lifted {
+    node: NodeId,
+    parametric: bool,
 }
 
 impl Lifter<'_> {
     fn system(&mut self) {
         for z in 0..self.system.algebraics.len() {
-            let row = self.system.algebraics[z].value.clone();
-            self.system.algebraics[z].value = self.row(row);
+            let row = std::mem::take(&mut self.system.algebraics[z].value.by_location);
+            let row = self.row(row);
+            let value = &mut self.system.algebraics[z].value;
+            value.by_location = row;
+            self.linearity.algebraic(&self.system.graph, AlgebraicIndex::new(z), value);
         }
         for x in 0..self.system.states.len() {
-            let row = self.system.states[x].rate.clone();
-            self.system.states[x].rate = self.row(row);
+            let row = std::mem::take(&mut self.system.states[x].rate.by_location);
+            self.system.states[x].rate.by_location = self.row(row);
         }
         for t in 0..self.system.transitions.len() {
             self.system.transitions[t].trigger = match self.system.transitions[t].trigger.clone() {
@@ -49,43 +70,55 @@ impl Lifter<'_> {
         }
     }
 
-    fn row(&mut self, mut row: Row) -> Row {
-        for node in &mut row.by_location {
+    fn row(&mut self, mut row: Vec<NodeId>) -> Vec<NodeId> {
+        for node in &mut row {
             *node = self.lift(*node);
         }
         row
     }
 
     fn lift(&mut self, root: NodeId) -> NodeId {
-        for id in self.system.graph.reachable_switches([root]) {
-            if !self.lifted.contains_key(&id) {
-                let lifted = self.node(id);
-                self.lifted.insert(id, lifted);
-            }
+        // Lifting makes new nodes; those below `root` are older.
+        self.lifted.resize(self.system.graph.len(), None);
+        let mut reach = std::mem::take(&mut self.reach);
+        let graph = &self.system.graph;
+        let known = |id: NodeId| self.lifted[id.position()].is_some();
+        let missing = reach
+            .entering(graph, [root], known, |id| !matches!(graph.node(id), Node::Unary(Unary::Smooth, _)));
+        for &id in missing {
+            let lifted = self.node(id);
+            self.lifted[id.position()] = Some(lifted);
         }
-        self.lifted[&root]
+        self.reach = reach;
+        self.of(root)
     }
 
-    fn node(&mut self, id: NodeId) -> NodeId {
-        if self.is_parametric(id) {
-            return id;
-        }
-        let of = |lifter: &Self, operand: NodeId| lifter.lifted[&operand];
+    /// What an operand became; operands are lifted before users.
+    fn of(&self, operand: NodeId) -> NodeId {
+        self.lifted[operand.position()].map_or(operand, |lifted| lifted.node)
+    }
+
+    fn node(&mut self, id: NodeId) -> Lifted {
+        let parametric = self.is_parametric(id);
+        Lifted { node: if parametric { id } else { self.smooth(id) }, parametric }
+    }
+
+    fn smooth(&mut self, id: NodeId) -> NodeId {
         match self.system.graph.node(id) {
             Node::Compare(comparison, a, b) => {
-                let (a, b) = (of(self, a), of(self, b));
+                let (a, b) = (self.of(a), self.of(b));
                 self.compare(comparison, a, b)
             }
             Node::Unary(Unary::Smooth, _) => id,
             Node::Unary(Unary::Abs, a) => {
-                let a = of(self, a);
+                let a = self.of(a);
                 let zero = self.system.graph.number(0.0);
                 let below = self.compare(Comparison::Less, a, zero);
                 let opposite = self.system.graph.unary(Unary::Negate, a);
                 self.system.graph.select(below, opposite, a)
             }
             Node::Unary(Unary::Sign, a) => {
-                let a = of(self, a);
+                let a = self.of(a);
                 let [zero, one, minus] = [0.0, 1.0, -1.0].map(|n| self.system.graph.number(n));
                 let above = self.compare(Comparison::Greater, a, zero);
                 let below = self.compare(Comparison::Less, a, zero);
@@ -93,42 +126,45 @@ impl Lifter<'_> {
                 self.system.graph.select(above, one, rest)
             }
             Node::Unary(Unary::Floor, a) => {
-                let a = of(self, a);
+                let a = self.of(a);
                 self.floor(a)
             }
             Node::Binary(function @ (Binary::Min | Binary::Max), a, b) => {
-                let (a, b) = (of(self, a), of(self, b));
+                let (a, b) = (self.of(a), self.of(b));
                 let less = self.compare(Comparison::Less, a, b);
                 let (then, otherwise) = if function == Binary::Min { (a, b) } else { (b, a) };
                 self.system.graph.select(less, then, otherwise)
             }
             other => {
-                let mapped = other.map(|operand| self.lifted[&operand]);
+                let mapped = other.map(|operand| self.of(operand));
                 self.system.graph.rebuild(mapped)
             }
         }
     }
 
-    /// Asked of operands before users.
-    fn is_parametric(&mut self, id: NodeId) -> bool {
-        let known = match self.system.graph.node(id) {
+    fn is_parametric(&self, id: NodeId) -> bool {
+        match self.system.graph.node(id) {
             Node::Leaf(leaf) => matches!(leaf, Leaf::Parameter(_)),
             // What is inside was not looked at.
             Node::Unary(Unary::Smooth, _) => false,
             _ => {
                 let mut all = true;
-                self.system.graph.operands(id, |operand| all &= self.parametric[&operand]);
+                self.system.graph.operands(id, |operand| {
+                    all &= self.lifted[operand.position()].is_some_and(|lifted| lifted.parametric);
+                });
                 all
             }
-        };
-        self.parametric.insert(id, known);
-        known
+        }
     }
 
     fn compare(&mut self, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {
         let (watch, mirrored) = self.watch(a, b);
         let comparison = if mirrored { comparison.mirrored() } else { comparison };
-        let truth = self.system.truth(watch, comparison);
+        let truths = &mut self.system.truths;
+        let truth = *self.truths.entry((watch, comparison)).or_insert_with(|| {
+            truths.push(Truth { watch, comparison });
+            TruthIndex::new(truths.len() - 1)
+        });
         self.system.graph.leaf(Leaf::Truth(truth))
     }
 
@@ -171,41 +207,25 @@ impl Lifter<'_> {
         if self.system.graph.as_number(b) == Some(0.0) { a } else { self.system.graph.subtract(a, b) }
     }
 
+    /// The affine form of a difference, if it and the algebraic variables that it reads are affine.
     fn form(&mut self, difference: NodeId) -> Option<sophy_ir::Affine> {
-        let affine_algebraics = self.affine_algebraics(difference);
-        let variable = move |leaf: Leaf| match leaf {
-            Leaf::State(_) | Leaf::Input(_) | Leaf::Time => true,
-            Leaf::Algebraic(_) => affine_algebraics,
-            _ => false,
-        };
-        let form = self.system.graph.affine(difference, &variable)?;
-        let reads_algebraic = || {
-            let leaves = self.system.graph.dependencies([difference]);
-            leaves.iter().any(|leaf| matches!(leaf, Leaf::Algebraic(_)))
-        };
-        (affine_algebraics || !reads_algebraic()).then_some(form)
-    }
-
-    /// Whether every algebraic variable below is itself affine in every location.
-    fn affine_algebraics(&mut self, root: NodeId) -> bool {
-        let leaves = self.system.graph.dependencies([root]);
-        leaves.into_iter().all(|leaf| match leaf {
-            Leaf::Algebraic(z) => {
-                let nodes = self.system.algebraics[z.position()].value.by_location.clone();
-                nodes.into_iter().all(|node| self.form(node).is_some())
-            }
-            _ => true,
-        })
+        if !self.linearity.is_affine(&self.system.graph, difference) {
+            return None;
+        }
+        let variable =
+            |leaf: Leaf| matches!(leaf, Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_));
+        self.system.graph.affine(difference, &variable)
     }
 
     /// `floor(a)` as a stair n, bounded by the watches a − n and a − (n + 1).
     fn floor(&mut self, a: NodeId) -> NodeId {
-        if let Some(known) = self.system.stairs.iter().position(|s| s.argument == a) {
-            return self.system.graph.leaf(Leaf::Stair(StairIndex::new(known)));
+        if let Some(&known) = self.stairs.get(&a) {
+            return self.system.graph.leaf(Leaf::Stair(known));
         }
         let index = StairIndex::new(self.system.stairs.len());
         // The stair must exist before its watches are made: they read it.
         self.system.stairs.push(Stair { argument: a, lower: WatchIndex(0), upper: WatchIndex(0) });
+        self.stairs.insert(a, index);
         let n = self.system.graph.leaf(Leaf::Stair(index));
         let one = self.system.graph.number(1.0);
         let next = self.system.graph.add(n, one);
@@ -217,7 +237,7 @@ impl Lifter<'_> {
 
     fn fresh_watch(&mut self, left: NodeId, right: NodeId) -> WatchIndex {
         let difference = self.system.graph.subtract(left, right);
-        let affine = self.form(difference).is_some();
+        let affine = self.linearity.is_affine(&self.system.graph, difference);
         self.system.watches.push(Watch { left, right, difference, affine });
         WatchIndex::new(self.system.watches.len() - 1)
     }

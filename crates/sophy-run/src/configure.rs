@@ -2,9 +2,10 @@
 
 use crate::experiment::{Experiment, ExperimentError, Method, QuantumRule, Signal, matches};
 use crate::inputs;
+use rustc_hash::FxHashMap;
 use sophy_codegen::Parameters;
 use sophy_diagnostics::closest;
-use sophy_field::{EventIndex, InputIndex, LocationIndex};
+use sophy_field::{EventIndex, InputIndex, LocationIndex, ParameterIndex};
 use sophy_ir::{Automaton, Role, System};
 use sophy_solvers::Quantum;
 
@@ -27,10 +28,11 @@ pub(crate) fn configure(
     let mut collect = |result: Result<(), ExperimentError>| errors.extend(result.err());
     collect(times(experiment));
     let mut knobs = Parameters::new();
+    let parameters = positions(&system.parameters, |p| &p.name, experiment.knobs.is_empty());
     for (name, value) in &experiment.knobs {
-        match system.parameter_named(name) {
-            Some(index) => {
-                knobs.insert(index, *value);
+        match parameters.get(name.as_str()) {
+            Some(&position) => {
+                knobs.insert(ParameterIndex::new(position), *value);
             }
             None => {
                 collect(Err(unknown("knobs", "parameter", name, &names(&system.parameters, |p| &p.name))));
@@ -42,8 +44,9 @@ pub(crate) fn configure(
         collect(initial_location(system, component, location, &mut locations));
     }
     let states = names(&system.states, |s| &s.name);
+    let known = positions(&system.states, |s| &s.name, experiment.initial.is_empty());
     for (name, _) in &experiment.initial {
-        if system.state_named(name).is_none() {
+        if !known.contains_key(name.as_str()) {
             collect(Err(unknown("initial", "state", name, &states)));
         }
     }
@@ -51,13 +54,7 @@ pub(crate) fn configure(
         collect(quantum_rule(rule, &states));
     }
     let default = Quantum::from_tolerance(experiment.tolerance);
-    let quanta = states
-        .iter()
-        .map(|name| {
-            let rule = experiment.quanta.iter().rev().find(|rule| matches(&rule.pattern, name));
-            rule.map_or(default, |rule| rule.quantum)
-        })
-        .collect();
+    let quanta = quanta(experiment, &states, default);
     let signals = match input_signals(system, experiment) {
         Ok(signals) => signals,
         Err(found) => {
@@ -66,11 +63,9 @@ pub(crate) fn configure(
         }
     };
     let mut events = Vec::new();
+    let known = if experiment.events.is_empty() { FxHashMap::default() } else { receivers(system) };
     for (time, label) in &experiment.events {
-        let mut receivers: Vec<EventIndex> = (0..system.events.len())
-            .filter(|&i| system.events[i].name == *label || system.events[i].label == *label)
-            .map(EventIndex::new)
-            .collect();
+        let mut receivers = known.get(label.as_str()).cloned().unwrap_or_default();
         // An event of the whole, which members may know by another name.
         if let Some(port) = system.event_inputs.iter().find(|port| port.name == *label) {
             receivers.clone_from(&port.receivers);
@@ -87,6 +82,35 @@ pub(crate) fn configure(
     } else {
         Err(errors)
     }
+}
+
+/// The quantum of every state: that of the last rule that matches it.
+fn quanta(experiment: &Experiment, states: &[&str], default: Quantum) -> Vec<Quantum> {
+    // Rules that name one state are found by its name; later ones win over earlier.
+    let rules = experiment.quanta.iter().enumerate();
+    let (patterns, exact): (Vec<_>, Vec<_>) = rules.partition(|(_, rule)| rule.pattern.contains('*'));
+    let exact: FxHashMap<&str, (usize, Quantum)> =
+        exact.into_iter().map(|(at, rule)| (rule.pattern.as_str(), (at, rule.quantum))).collect();
+    let quantum = |name: &&str| {
+        let exact = exact.get(name).copied();
+        let after = patterns.iter().rev().take_while(|(at, _)| exact.is_none_or(|(exact, _)| *at > exact));
+        let pattern = after.map(|(_, rule)| rule).find(|rule| matches(&rule.pattern, name));
+        pattern.map(|rule| rule.quantum).or(exact.map(|(_, quantum)| quantum)).unwrap_or(default)
+    };
+    states.iter().map(quantum).collect()
+}
+
+/// The events that a name or a label means.
+fn receivers(system: &System) -> FxHashMap<&str, Vec<EventIndex>> {
+    let mut known: FxHashMap<&str, Vec<EventIndex>> = FxHashMap::default();
+    for (position, event) in system.events.iter().enumerate() {
+        let index = EventIndex::new(position);
+        known.entry(&event.label).or_default().push(index);
+        if event.name != event.label {
+            known.entry(&event.name).or_default().push(index);
+        }
+    }
+    known
 }
 
 fn times(experiment: &Experiment) -> Result<(), ExperimentError> {
@@ -162,8 +186,11 @@ fn input_signals(
     experiment: &Experiment,
 ) -> Result<Vec<(InputIndex, Signal)>, Vec<ExperimentError>> {
     let mut errors = Vec::new();
+    let known = positions(&system.inputs, |u| &u.name, experiment.inputs.is_empty());
+    let given: FxHashMap<&str, &Signal> =
+        experiment.inputs.iter().map(|(name, signal)| (name.as_str(), signal)).collect();
     for (name, signal) in &experiment.inputs {
-        if system.input_named(name).is_none() {
+        if !known.contains_key(name.as_str()) {
             errors.push(unknown("inputs", "input", name, &names(&system.inputs, |u| &u.name)));
         } else {
             errors.extend(inputs::check(name, signal, experiment.start, experiment.stop).err());
@@ -171,8 +198,8 @@ fn input_signals(
     }
     let mut signals = Vec::new();
     for (position, input) in system.inputs.iter().enumerate() {
-        match experiment.inputs.iter().rev().find(|(name, _)| *name == input.name) {
-            Some((_, signal)) => signals.push((InputIndex::new(position), signal.clone())),
+        match given.get(input.name.as_str()) {
+            Some(&signal) => signals.push((InputIndex::new(position), signal.clone())),
             None => {
                 let unit = input.unit.as_ref().map(|u| format!(" ({u})")).unwrap_or_default();
                 let name = &input.name;
@@ -203,6 +230,12 @@ pub(crate) fn unknown(item: &str, kind: &str, name: &str, known: &[&str]) -> Exp
             error.help(format!("it has {}{more}", shown.join(", ")))
         }
     }
+}
+
+/// Positions by name, the first of each; nothing if nobody will ask.
+fn positions<T>(items: &[T], name: impl Fn(&T) -> &String, unasked: bool) -> FxHashMap<&str, usize> {
+    let items = if unasked { &[] } else { items };
+    items.iter().enumerate().rev().map(|(position, item)| (name(item).as_str(), position)).collect()
 }
 
 pub(crate) fn names<T>(items: &[T], name: impl Fn(&T) -> &String) -> Vec<&str> {

@@ -4,12 +4,14 @@ use crate::experiment::{AtEnd, ExperimentError, Interpolation, Signal};
 use sophy_field::{Changes, EventIndex, InputIndex};
 
 /// The inputs of a run as time goes on.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Inputs {
     signals: Vec<Driver>,
     /// Time and receivers, in the order of time.
     events: Vec<(f64, EventIndex)>,
     next_event: usize,
+    /// When a signal changes next, s.
+    next_signal: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -25,37 +27,43 @@ impl Inputs {
         let mut events = events;
         events.sort_by(|a, b| a.0.total_cmp(&b.0));
         let signals = signals.into_iter().map(|(input, signal)| Driver { input, signal, next: 0 }).collect();
-        Inputs { signals, events, next_event: 0 }
+        Inputs { signals, events, next_event: 0, next_signal: f64::INFINITY }
     }
 
     /// Value and slope of every input at `start`, in the order given; everything before is past.
     pub(crate) fn begin(&mut self, start: f64) -> Vec<[f64; 2]> {
         self.next_event = self.events.partition_point(|event| event.0 < start);
-        self.signals
-            .iter_mut()
-            .map(|driver| {
-                driver.next = driver.signal.times.partition_point(|&time| time <= start);
-                driver.line(start)
-            })
-            .collect()
+        let begin = |driver: &mut Driver| {
+            driver.next = driver.signal.times.partition_point(|&time| time <= start);
+            driver.line(start)
+        };
+        let lines = self.signals.iter_mut().map(begin).collect();
+        self.look_ahead();
+        lines
+    }
+
+    fn look_ahead(&mut self) {
+        self.next_signal = self.signals.iter().map(Driver::next_time).fold(f64::INFINITY, f64::min);
     }
 
     /// The next time at which something changes or arrives; infinite if nothing does.
     pub(crate) fn next_time(&self) -> f64 {
-        let signals = self.signals.iter().map(Driver::next_time);
         let event = self.events.get(self.next_event).map_or(f64::INFINITY, |event| event.0);
-        signals.fold(event, f64::min)
+        event.min(self.next_signal)
     }
 
     /// Everything due at `time`: the changes of inputs, and the events, in order.
     pub(crate) fn due(&mut self, time: f64, changes: &mut Changes) -> Vec<EventIndex> {
-        for driver in &mut self.signals {
-            if driver.next_time() <= time {
-                while driver.next_time() <= time {
-                    driver.next += 1;
+        if self.next_signal <= time {
+            for driver in &mut self.signals {
+                if driver.next_time() <= time {
+                    while driver.next_time() <= time {
+                        driver.next += 1;
+                    }
+                    changes.inputs.push((driver.input, driver.line(time)));
                 }
-                changes.inputs.push((driver.input, driver.line(time)));
             }
+            self.look_ahead();
         }
         let mut events = Vec::new();
         while let Some(&(at, event)) = self.events.get(self.next_event) {

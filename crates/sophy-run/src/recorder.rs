@@ -4,6 +4,7 @@ use crate::configure::{names, unknown};
 use crate::experiment::{Experiment, ExperimentError, matches};
 use crate::grid::Grid;
 use crate::run::Run;
+use rustc_hash::FxHashSet;
 use sophy_field::{LocationIndex, Record, SourceIndex, WatchIndex};
 use sophy_record::{Column, ColumnKind, Row, Schema, Sink, SinkError, Trajectory};
 use sophy_segment::Sign;
@@ -280,9 +281,7 @@ impl Recorder {
             let value = match real {
                 Real::Source(source) => at(self.segments[source.position()], time),
                 Real::Output(index) => {
-                    let output = &e.outputs[index];
-                    let location = self.locations[output.owner.position()];
-                    let formula = &output.by_location[location.position()];
+                    let formula = e.selected(e.outputs[index], &self.locations);
                     for &source in e.sources(&formula.sources) {
                         self.memory[e.layout.series_of(source)] = at(self.segments[source.position()], time);
                     }
@@ -320,10 +319,11 @@ struct Available {
 }
 
 /// Outputs, then states and inputs that are not outputs of the same name, then locations.
-fn available(system: &sophy_ir::System, states: u32) -> Vec<Available> {
+fn available<'a>(system: &'a sophy_ir::System, states: u32) -> Vec<Available> {
     let mut columns: Vec<Available> = Vec::new();
-    let mut add = |name: &str, unit: &Option<String>, real: Real, by_default: bool, is_state: bool| {
-        if !columns.iter().any(|c| c.name == name) {
+    let mut taken: FxHashSet<&str> = FxHashSet::default();
+    let mut add = |name: &'a str, unit: &Option<String>, real: Real, by_default: bool, is_state: bool| {
+        if taken.insert(name) {
             columns.push(Available {
                 name: name.to_owned(),
                 unit: unit.clone(),

@@ -1,6 +1,7 @@
 //! For tests only: models built by hand (no front end involved) and reference data.
 
 mod build;
+pub mod cells;
 pub mod problems;
 mod reference;
 

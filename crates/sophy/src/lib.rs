@@ -92,7 +92,8 @@ mod world;
 pub use convert::{Conversion, to_hsml, to_xml};
 pub use describe::{
     AutomatonDescription, ClockDescription, ComponentDescription, Dependency, Description, Knot,
-    LocationDescription, Quantity, Reaction, Sizes, Sparsity, TransitionDescription, WatchDescription, describe,
+    LocationDescription, Quantity, Reaction, Sizes, Sparsity, TransitionDescription, WatchDescription,
+    describe,
 };
 pub use draw::{UnknownComponent, diagram};
 pub use emit::{declarations_text, model_text, system_text};
@@ -111,7 +112,8 @@ pub use sophy_diagnostics::{
     WorldError, closest, render,
 };
 pub use sophy_files::{
-    Diagram, FileError, PlotOptions, draw, plot, read_columns, read_event_labels, read_events, read_table, write_table,
+    Diagram, FileError, PlotOptions, draw, plot, read_columns, read_event_labels, read_events, read_table,
+    write_table,
 };
 pub use sophy_ir::Model;
 pub use sophy_record::{

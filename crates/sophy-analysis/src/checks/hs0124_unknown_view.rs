@@ -15,7 +15,8 @@ pub(crate) fn diagnostic(view: &Spanned<String>, symbols: &Symbols<'_>) -> Diagn
         .map(|(name, _)| *name)
         .collect();
     let help = suggest(&view.value, &variables, "variables").help;
-    Diagnostic::error(CODE, view.span, format!("`{}` is not declared, so it cannot be viewed", view.value)).help(help)
+    Diagnostic::error(CODE, view.span, format!("`{}` is not declared, so it cannot be viewed", view.value))
+        .help(help)
 }
 
 pub(crate) fn no_variable(view: &Spanned<String>) -> Diagnostic {

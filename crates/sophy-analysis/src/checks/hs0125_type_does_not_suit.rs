@@ -18,8 +18,10 @@ pub(crate) fn variable(kind: &str, what: &str, span: Span) -> Diagnostic {
 
 /// A discrete-time or logic component has an output that is a signal.
 pub(crate) fn output(component: ComponentKind, name: &str, span: Span) -> Diagnostic {
-    let message =
-        format!("output `{name}` of {} changes at instants only and is no signal", kind_with_article(component));
+    let message = format!(
+        "output `{name}` of {} changes at instants only and is no signal",
+        kind_with_article(component)
+    );
     Diagnostic::error(CODE, span, message)
         .help("write `real`: a `real` output may be connected to a `signal` input, where it is held")
 }

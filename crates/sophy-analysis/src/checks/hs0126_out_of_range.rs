@@ -4,7 +4,14 @@ use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0126");
 
-pub(crate) fn diagnostic(name: &str, value: f64, least: f64, greatest: f64, at: Span, range: Span) -> Diagnostic {
+pub(crate) fn diagnostic(
+    name: &str,
+    value: f64,
+    least: f64,
+    greatest: f64,
+    at: Span,
+    range: Span,
+) -> Diagnostic {
     Diagnostic::error(CODE, at, format!("`{name}` is {value}, outside its range ({least}, {greatest})"))
         .label(range, "the range")
         .help("change the value or the range")

@@ -15,7 +15,9 @@ pub(crate) fn diagnostic(name: &Spanned<String>, kind: SymbolKind, declared: Spa
     };
     let help = match kind {
         SymbolKind::State if !rate => format!("write `der({name}) = …`, or declare `{name}` as a local"),
-        SymbolKind::Mode => format!("a mode gets its values at instants: `{name} := …` in an event section, a transition or a rule"),
+        SymbolKind::Mode => format!(
+            "a mode gets its values at instants: `{name} := …` in an event section, a transition or a rule"
+        ),
         SymbolKind::Local | SymbolKind::Output | SymbolKind::Flag if rate => {
             format!("write `{name} = …`, or declare `{name}` as a state")
         }

@@ -7,10 +7,6 @@ pub(crate) const CODE: Code = Code("HS0130");
 
 pub(crate) fn diagnostic(name: &str, defined: Span, keyword: Span, no_else: bool) -> Diagnostic {
     let message = format!("`{name}` is defined in some branches of this `if` only");
-    let help = if no_else {
-        "add an `else` branch that defines it"
-    } else {
-        "define it in every branch"
-    };
+    let help = if no_else { "add an `else` branch that defines it" } else { "define it in every branch" };
     Diagnostic::error(CODE, keyword, message).label(defined, "defined here").help(help)
 }

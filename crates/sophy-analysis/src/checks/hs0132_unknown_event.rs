@@ -39,14 +39,22 @@ fn other_way(component: &ComponentDeclaration, label: &str) -> Option<&'static s
     })
 }
 
-fn unknown(label: &Spanned<String>, component: &ComponentDeclaration, direction: Direction, example: &str) -> Diagnostic {
+fn unknown(
+    label: &Spanned<String>,
+    component: &ComponentDeclaration,
+    direction: Direction,
+    example: &str,
+) -> Diagnostic {
     let what = match direction {
         Direction::Input => "input event",
         Direction::Output => "output event",
         Direction::Synchronised => "`sync` label",
     };
-    let mut error =
-        Diagnostic::error(CODE, label.span, format!("`{}` is no {what} of `{}`", label.value, component.name.value));
+    let mut error = Diagnostic::error(
+        CODE,
+        label.span,
+        format!("`{}` is no {what} of `{}`", label.value, component.name.value),
+    );
     let candidates = labels(component, direction);
     match other_way(component, &label.value) {
         Some(why) => error = error.note(why),

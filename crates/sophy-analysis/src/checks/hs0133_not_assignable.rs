@@ -9,7 +9,9 @@ pub(crate) const CODE: Code = Code("HS0133");
 
 pub(crate) fn diagnostic(name: &Spanned<String>, kind: SymbolKind, declared: Span) -> Diagnostic {
     let help = match kind {
-        SymbolKind::Output => "an output that is assigned needs no equation; one with an equation cannot be assigned",
+        SymbolKind::Output => {
+            "an output that is assigned needs no equation; one with an equation cannot be assigned"
+        }
         SymbolKind::Flag => "a flag is defined by an equation; assign what it depends on",
         SymbolKind::Input => "what an input is, is decided where the component is connected",
         SymbolKind::Knob | SymbolKind::Parameter | SymbolKind::Constant => {

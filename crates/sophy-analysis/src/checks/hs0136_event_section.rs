@@ -7,7 +7,11 @@ use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0136");
 
-pub(crate) fn no_flag(flag: &Spanned<String>, found: Option<(SymbolKind, Span)>, symbols: &Symbols<'_>) -> Diagnostic {
+pub(crate) fn no_flag(
+    flag: &Spanned<String>,
+    found: Option<(SymbolKind, Span)>,
+    symbols: &Symbols<'_>,
+) -> Diagnostic {
     let name = &flag.value;
     if let Some((kind, declared)) = found {
         let message = format!("`{name}` is {}, and only flags have event sections", kind.with_article());

@@ -12,10 +12,15 @@ pub(crate) fn diagnostic(component: &Spanned<String>) -> Diagnostic {
 
 pub(crate) fn never_moved(clock: &Spanned<String>) -> Diagnostic {
     let name = &clock.value;
-    Diagnostic::error(CODE, clock.span, format!("no update moves `{name}`: the component would execute without end"))
-        .help(format!("add `{name} := {name} + Ts;` to the update, or `{name} := never;` to execute once"))
+    Diagnostic::error(
+        CODE,
+        clock.span,
+        format!("no update moves `{name}`: the component would execute without end"),
+    )
+    .help(format!("add `{name} := {name} + Ts;` to the update, or `{name} := never;` to execute once"))
 }
 
 pub(crate) fn not_positive(span: Span) -> Diagnostic {
-    Diagnostic::error(CODE, span, "the period is not positive").help("a period is a number of seconds greater than 0")
+    Diagnostic::error(CODE, span, "the period is not positive")
+        .help("a period is a number of seconds greater than 0")
 }

@@ -2,8 +2,8 @@
 
 use super::suggestion::suggest;
 use crate::declarations::Spanned;
-use sophy_ir::{Class, VariableKind};
 use sophy_diagnostics::{Code, Diagnostic, Span};
+use sophy_ir::{Class, VariableKind};
 
 pub(crate) const CODE: Code = Code("HS0139");
 
@@ -23,8 +23,10 @@ pub(crate) fn diagnostic(name: &Spanned<String>, component: &Spanned<String>, cl
 
 /// The parameter decides the structure of the component, so its value must be known when the model is built.
 pub(crate) fn not_known(name: &Spanned<String>, component: &Spanned<String>, span: Span) -> Diagnostic {
-    let message =
-        format!("`{}` decides the structure of `{}`, and this value is not known before a run", name.value, component.value);
+    let message = format!(
+        "`{}` decides the structure of `{}`, and this value is not known before a run",
+        name.value, component.value
+    );
     Diagnostic::error(CODE, span, message)
         .help("write a number, or an expression of constants and loop variables")
 }

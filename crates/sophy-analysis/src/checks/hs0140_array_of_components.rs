@@ -11,7 +11,8 @@ pub(crate) fn extent(name: &str, extents: &[u32], span: Span) -> Diagnostic {
 }
 
 pub(crate) fn not_positive(what: &str, number: i64, span: Span) -> Diagnostic {
-    Diagnostic::error(CODE, span, format!("{what} is {number}")).help("indices and numbers of copies count from 1")
+    Diagnostic::error(CODE, span, format!("{what} is {number}"))
+        .help("indices and numbers of copies count from 1")
 }
 
 pub(crate) fn both(name: &str, span: Span) -> Diagnostic {

@@ -21,7 +21,8 @@ pub(crate) fn unknown(name: &str, components: &[&ComponentDeclaration], span: Sp
 
 /// Several could be meant.
 pub(crate) fn ambiguous(candidates: &[&ComponentDeclaration]) -> Diagnostic {
-    let names: Vec<String> = candidates.iter().map(|component| format!("`{}`", component.name.value)).collect();
+    let names: Vec<String> =
+        candidates.iter().map(|component| format!("`{}`", component.name.value)).collect();
     let mut error = Diagnostic::error(
         CODE,
         candidates[0].name.span,
@@ -30,5 +31,7 @@ pub(crate) fn ambiguous(candidates: &[&ComponentDeclaration]) -> Diagnostic {
     for component in &candidates[1..] {
         error = error.label(component.name.span, "or this one");
     }
-    error.help("say which one: `--system NAME`, `system = \"NAME\"` in an experiment, or a SYSTEM that contains it")
+    error.help(
+        "say which one: `--system NAME`, `system = \"NAME\"` in an experiment, or a SYSTEM that contains it",
+    )
 }

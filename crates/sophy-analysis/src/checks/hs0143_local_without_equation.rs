@@ -6,7 +6,13 @@ use sophy_diagnostics::{Code, Diagnostic, Span};
 pub(crate) const CODE: Code = Code("HS0143");
 
 /// `place` says where it has none.
-pub(crate) fn diagnostic(name: &str, kind: SymbolKind, span: Span, place: &str, used: Option<Span>) -> Diagnostic {
+pub(crate) fn diagnostic(
+    name: &str,
+    kind: SymbolKind,
+    span: Span,
+    place: &str,
+    used: Option<Span>,
+) -> Diagnostic {
     let what = match kind {
         SymbolKind::Flag => "flag",
         SymbolKind::Output => "output",

@@ -6,7 +6,11 @@ pub(crate) const CODE: Code = Code("HS0145");
 
 /// More constraints than unknowns.
 pub(crate) fn too_many(constraint: Span, place: &str) -> Diagnostic {
-    Diagnostic::error(CODE, constraint, format!("this constraint determines nothing{place}: every quantity in it is defined already"))
-        .note("a constraint between states whose derivatives are all given is a system of higher index")
-        .help("delete one of the equations that define these quantities, or the constraint")
+    Diagnostic::error(
+        CODE,
+        constraint,
+        format!("this constraint determines nothing{place}: every quantity in it is defined already"),
+    )
+    .note("a constraint between states whose derivatives are all given is a system of higher index")
+    .help("delete one of the equations that define these quantities, or the constraint")
 }

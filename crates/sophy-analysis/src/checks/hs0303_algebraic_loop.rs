@@ -38,11 +38,8 @@ pub(crate) fn initial(members: &[(String, Option<Span>)], component: Span) -> Di
 /// The same across components, after they were put together: full names, right-hand sides and places.
 pub fn across_components(equations: &[(String, String, Option<Span>)], fallback: Span) -> Diagnostic {
     let place = |k: usize| equations.get(k).and_then(|(_, _, span)| *span);
-    let mut error = Diagnostic::error(
-        CODE,
-        place(0).unwrap_or(fallback),
-        "the composition has an algebraic loop",
-    );
+    let mut error =
+        Diagnostic::error(CODE, place(0).unwrap_or(fallback), "the composition has an algebraic loop");
     for (k, (name, ..)) in equations.iter().enumerate().skip(1) {
         if let Some(span) = place(k) {
             error = error.label(span, format!("defines `{name}`"));

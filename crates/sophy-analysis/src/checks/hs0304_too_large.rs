@@ -14,7 +14,9 @@ pub(crate) fn diagnostic(span: Span, name: &str, largest: usize) -> Diagnostic {
 /// Loops and arrays are written out.
 pub(crate) fn expression(span: Span, largest: usize) -> Diagnostic {
     Diagnostic::error(CODE, span, "with this the component becomes too large")
-        .note(format!("functions, loops and arrays are written out; a component may have {largest} operations"))
+        .note(format!(
+            "functions, loops and arrays are written out; a component may have {largest} operations"
+        ))
         .help("make it smaller, or divide it among several components")
 }
 

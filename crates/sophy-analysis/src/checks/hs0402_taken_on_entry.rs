@@ -31,7 +31,9 @@ pub(crate) fn find(
         for (written, lowered) in
             declarations.locations[position].transitions.iter().zip(&location.transitions)
         {
-            if guard_of(written).is_some() && lowered.guard.and_then(|guard| half_space(graph, guard)) == Some(rate) {
+            if guard_of(written).is_some()
+                && lowered.guard.and_then(|guard| half_space(graph, guard)) == Some(rate)
+            {
                 diagnostics.push(diagnostic(written, entry, &declarations.locations[position].name.value));
             }
         }
@@ -97,7 +99,9 @@ fn rate_at_crossing(
         _ => None,
     })?;
     let (quantity, flipped) = without_sign(graph, rate);
-    let reset = |leaf: &Leaf| transition.actions.assignments.iter().any(|reset| *leaf == Leaf::Variable(reset.variable));
+    let reset = |leaf: &Leaf| {
+        transition.actions.assignments.iter().any(|reset| *leaf == Leaf::Variable(reset.variable))
+    };
     if graph.dependencies([quantity]).iter().any(reset) || graph.as_number(quantity).is_some() {
         return None;
     }

@@ -3,8 +3,8 @@
 use super::suggestion::suggest;
 use crate::component::Interface;
 use crate::declarations::Spanned;
-use std::collections::BTreeSet;
 use sophy_diagnostics::{Code, Diagnostic, Span};
+use std::collections::BTreeSet;
 
 pub(crate) const CODE: Code = Code("HS0410");
 

@@ -16,7 +16,9 @@ pub(crate) fn diagnostic(from: (&Port, Span), to: (&Port, Span), mismatch: &Mism
             error = error.note(conversion);
             format!("convert in a component, or declare `{}` in {}", to.0.name, unit(from.0))
         }
-        None => "these are different physical quantities: one of the two connections or units is wrong".to_owned(),
+        None => {
+            "these are different physical quantities: one of the two connections or units is wrong".to_owned()
+        }
     };
     error.help(help)
 }

@@ -3,12 +3,16 @@
 use super::words::kind_with_article;
 use crate::component::{Port, PortType};
 use crate::declarations::ComponentKind;
-use sophy_ir::Quantity;
 use sophy_diagnostics::{Code, Diagnostic, Span};
+use sophy_ir::Quantity;
 
 pub(crate) const CODE: Code = Code("HS0415");
 
-pub(crate) fn diagnostic(from: (&Port, Span), to: (&Port, Span), receiver: Option<ComponentKind>) -> Diagnostic {
+pub(crate) fn diagnostic(
+    from: (&Port, Span),
+    to: (&Port, Span),
+    receiver: Option<ComponentKind>,
+) -> Diagnostic {
     let (a, b) = (from.0.kind, to.0.kind);
     let message = format!("`{}` is a `{}`, `{}` is a `{}`", from.0.name, a.name(), to.0.name, b.name());
     let error = Diagnostic::error(CODE, from.1, format!("{message}: they cannot be connected"))

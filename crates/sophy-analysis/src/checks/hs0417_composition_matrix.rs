@@ -24,5 +24,6 @@ pub(crate) fn not_known(span: Span) -> Diagnostic {
 }
 
 pub(crate) fn no_member(span: Span) -> Diagnostic {
-    Diagnostic::error(CODE, span, "only members can be composed").help("write the names of members of this composite")
+    Diagnostic::error(CODE, span, "only members can be composed")
+        .help("write the names of members of this composite")
 }

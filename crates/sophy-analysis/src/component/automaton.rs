@@ -3,7 +3,8 @@ use super::equations::{Defined, Definition};
 use super::statements::Setting;
 use super::variables::Interface;
 use crate::checks::{
-    hs0105_unknown_initial_value, hs0108_defined_twice, hs0132_unknown_event, hs0136_event_section, hs0303_algebraic_loop,
+    hs0105_unknown_initial_value, hs0108_defined_twice, hs0132_unknown_event, hs0136_event_section,
+    hs0303_algebraic_loop,
 };
 use crate::declarations::{
     ComponentKind, Dialect, EventDeclaration, ExpressionText, LocationDeclaration, RuleDeclaration, Spanned,
@@ -13,8 +14,8 @@ use crate::dependency_order::dependency_order;
 use crate::lower::{Place, SymbolKind, SymbolValue};
 use sophy_diagnostics::Span;
 use sophy_ir::{
-    Actions, Assignment, Constraint, Equation, EventSection, HybridAutomaton, Leaf, Location, Node, NodeId, Rule,
-    Transition, Trigger, VariableId, VariableKind,
+    Actions, Assignment, Constraint, Equation, EventSection, HybridAutomaton, Leaf, Location, Node, NodeId,
+    Rule, Transition, Trigger, VariableId, VariableKind,
 };
 use std::collections::{BTreeMap, HashMap};
 
@@ -47,11 +48,8 @@ impl<'a> Builder<'_, 'a> {
         let everywhere_place = if has_locations { " in all locations" } else { "" };
         let everywhere = self.define(&declaration.equations, everywhere_place);
         let common_constraints = self.constraints(&declaration.equations.constraints);
-        let written: Vec<Option<&'a LocationDeclaration>> = if has_locations {
-            declaration.locations.iter().map(Some).collect()
-        } else {
-            vec![None]
-        };
+        let written: Vec<Option<&'a LocationDeclaration>> =
+            if has_locations { declaration.locations.iter().map(Some).collect() } else { vec![None] };
         let mut built = Vec::with_capacity(written.len());
         for location in written {
             let place = location.map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
@@ -85,10 +83,7 @@ impl<'a> Builder<'_, 'a> {
         built
     }
 
-    fn constraints(
-        &mut self,
-        written: &'a [crate::declarations::ConstraintDeclaration],
-    ) -> Vec<Constraint> {
+    fn constraints(&mut self, written: &'a [crate::declarations::ConstraintDeclaration]) -> Vec<Constraint> {
         let mut constraints = Vec::new();
         for constraint in written {
             let left = self.at(Place::EQUATION).value(&constraint.left);
@@ -115,7 +110,12 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// Equations of outputs, locals and flags, each after those it reads; a circle is an algebraic loop.
-    pub(crate) fn sorted(&mut self, defined: &Defined, constraints: &[Constraint], place: &str) -> Vec<Equation> {
+    pub(crate) fn sorted(
+        &mut self,
+        defined: &Defined,
+        constraints: &[Constraint],
+        place: &str,
+    ) -> Vec<Equation> {
         let ids: Vec<VariableId> = defined.values.keys().copied().collect();
         let position: HashMap<VariableId, usize> =
             ids.iter().enumerate().map(|(position, &id)| (id, position)).collect();
@@ -140,7 +140,9 @@ impl<'a> Builder<'_, 'a> {
             }
             let members: Vec<(String, Definition)> = cycle
                 .iter()
-                .map(|&member| (self.variables[ids[member].0 as usize].name.clone(), defined.values[&ids[member]]))
+                .map(|&member| {
+                    (self.variables[ids[member].0 as usize].name.clone(), defined.values[&ids[member]])
+                })
                 .collect();
             let texts: Vec<String> =
                 members.iter().map(|(_, d)| self.shared.sources.excerpt(d.span).trim().to_owned()).collect();
@@ -167,7 +169,9 @@ impl<'a> Builder<'_, 'a> {
         };
         let on_event = matches!(
             written.trigger,
-            TriggerDeclaration::On(..) | TriggerDeclaration::Invariant(..) | TriggerDeclaration::Synchronised(..)
+            TriggerDeclaration::On(..)
+                | TriggerDeclaration::Invariant(..)
+                | TriggerDeclaration::Synchronised(..)
         );
         let reads = if on_event { Place::INSTANT } else { Place::EQUATION };
         let guard = guard_text.and_then(|guard| self.at(reads).condition(guard));
@@ -197,8 +201,12 @@ impl<'a> Builder<'_, 'a> {
             }
         };
         let place = format!(" in transition `{}`", written.name.value);
-        let setting =
-            Setting { place: &place, reads: Place::INSTANT, emits: true, holds: self.declaration.dialect == Dialect::Hsml };
+        let setting = Setting {
+            place: &place,
+            reads: Place::INSTANT,
+            emits: true,
+            holds: self.declaration.dialect == Dialect::Hsml,
+        };
         let actions = self.actions(&written.actions, setting);
         let is_destination = |l: &LocationDeclaration| l.name.value == written.destination.value;
         let fallback = self.component_priority();
@@ -412,7 +420,13 @@ impl<'a> Builder<'_, 'a> {
         let mut first: BTreeMap<&str, Span> = BTreeMap::new();
         for hint in hints {
             let Statement::Assign { target, right } = hint else { continue };
-            let value = self.at(Place { what: "an initial value", most: crate::lower::Varies::Parameters, ..Place::INITIAL }).scalar(right);
+            let value = self
+                .at(Place {
+                    what: "an initial value",
+                    most: crate::lower::Varies::Parameters,
+                    ..Place::INITIAL
+                })
+                .scalar(right);
             let name = target.name.value.as_str();
             if name.is_empty() {
                 continue;

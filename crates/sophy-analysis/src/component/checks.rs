@@ -4,12 +4,12 @@ use super::matching::match_constraints;
 use super::statements::assigned_names;
 use crate::checks::{
     hs0101_unknown_name, hs0102_equation_for_undeclared_state, hs0103_reset_of_undeclared_state,
-    hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice, hs0109_output_without_map,
-    hs0110_state_without_equation, hs0112_location_declared_twice, hs0113_transition_declared_twice,
-    hs0114_unknown_destination, hs0115_unknown_initial_location, hs0116_unreachable_location,
-    hs0117_hidden_name, hs0118_unused, hs0119_no_location, hs0127_declaration_for_another_kind,
-    hs0143_local_without_equation, hs0144_flag_without_event, hs0201_unknown_function,
-    hs0206_natural_logarithm, hs0401_constant_guard, hs0402_taken_on_entry,
+    hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice,
+    hs0109_output_without_map, hs0110_state_without_equation, hs0112_location_declared_twice,
+    hs0113_transition_declared_twice, hs0114_unknown_destination, hs0115_unknown_initial_location,
+    hs0116_unreachable_location, hs0117_hidden_name, hs0118_unused, hs0119_no_location,
+    hs0127_declaration_for_another_kind, hs0143_local_without_equation, hs0144_flag_without_event,
+    hs0201_unknown_function, hs0206_natural_logarithm, hs0401_constant_guard, hs0402_taken_on_entry,
 };
 use crate::declarations::{
     ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration,
@@ -132,7 +132,8 @@ impl Builder<'_, '_> {
     /// What only all locations together show.
     pub(crate) fn check_automaton(&mut self, locations: &[BuiltLocation<'_>], events: &[EventSection]) {
         let declaration = self.declaration;
-        let mut meant: BTreeSet<String> = locations.iter().flat_map(|l| l.defined.meant.iter().cloned()).collect();
+        let mut meant: BTreeSet<String> =
+            locations.iter().flat_map(|l| l.defined.meant.iter().cloned()).collect();
         self.check_strays(locations, &mut meant);
         let mut found = Diagnostics::default();
         for diagnostic in hs0106_unit_for_unknown_name::find(declaration, &self.symbols) {
@@ -154,7 +155,8 @@ impl Builder<'_, '_> {
         self.check_values(locations, &meant);
         let listened: HashSet<VariableId> = events.iter().map(|section| section.flag).collect();
         let flags: Vec<VariableId> = self.ids_of(|kind| kind == VariableKind::Flag);
-        let written: HashSet<&str> = declaration.events.iter().map(|event| event.flag.value.as_str()).collect();
+        let written: HashSet<&str> =
+            declaration.events.iter().map(|event| event.flag.value.as_str()).collect();
         for flag in flags {
             let variable = &self.variables[flag.0 as usize];
             let base = variable.name.split('[').next().unwrap_or("");
@@ -174,8 +176,11 @@ impl Builder<'_, '_> {
         let strays = std::mem::take(&mut self.strays);
         let names: Vec<(String, SymbolKind)> =
             self.symbols.names().into_iter().map(|(name, symbol)| (name.to_owned(), symbol.kind)).collect();
-        let states: Vec<&str> =
-            names.iter().filter(|(_, kind)| *kind == SymbolKind::State).map(|(name, _)| name.as_str()).collect();
+        let states: Vec<&str> = names
+            .iter()
+            .filter(|(_, kind)| *kind == SymbolKind::State)
+            .map(|(name, _)| name.as_str())
+            .collect();
         let has_equation = |state: &&str| {
             let id = match self.symbols.get(state).map(|symbol| &symbol.value) {
                 Some(SymbolValue::Variable(variable)) => variable.first,
@@ -283,7 +288,8 @@ impl Builder<'_, '_> {
         let mut lacking_maps: Vec<(VariableId, Vec<(String, Span)>)> = Vec::new();
         let mut found = Vec::new();
         let mut seen: BTreeSet<String> = BTreeSet::new();
-        let with_value = |kind| matches!(kind, VariableKind::Local | VariableKind::Flag | VariableKind::Output);
+        let with_value =
+            |kind| matches!(kind, VariableKind::Local | VariableKind::Flag | VariableKind::Output);
         let ids = self.ids_of(with_value);
         for location in locations {
             let lives = |base: &str| match (own.get(base), location.declaration) {
@@ -305,7 +311,9 @@ impl Builder<'_, '_> {
             let matched = match_constraints(&self.graph, &location.defined, &location.constraints, &lacking);
             for &constraint in &matched.superfluous {
                 let span = location.constraints[constraint].span.unwrap_or(self.declaration.name.span);
-                let place = location.declaration.map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
+                let place = location
+                    .declaration
+                    .map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
                 found.push(crate::checks::hs0145_constrained::too_many(span, &place));
             }
             for id in matched.undetermined {
@@ -324,7 +332,8 @@ impl Builder<'_, '_> {
                 continue;
             }
             if xml {
-                let places: Vec<(&str, Span)> = places.iter().map(|(name, span)| (name.as_str(), *span)).collect();
+                let places: Vec<(&str, Span)> =
+                    places.iter().map(|(name, span)| (name.as_str(), *span)).collect();
                 if !places.is_empty() {
                     found.push(hs0109_output_without_map::diagnostic(&variable.name, span, &places));
                 }
@@ -359,10 +368,15 @@ impl Builder<'_, '_> {
         for id in self.ids_of(|kind| matches!(kind, VariableKind::Local | VariableKind::Output)) {
             let variable = &self.variables[id.0 as usize];
             let base = variable.name.split('[').next().unwrap_or("").to_owned();
-            if defined.contains(&id) || meant.contains(&base) || assigned.contains(&base) || !seen.insert(base) {
+            if defined.contains(&id)
+                || meant.contains(&base)
+                || assigned.contains(&base)
+                || !seen.insert(base)
+            {
                 continue;
             }
-            let kind = if variable.kind == VariableKind::Local { SymbolKind::Local } else { SymbolKind::Output };
+            let kind =
+                if variable.kind == VariableKind::Local { SymbolKind::Local } else { SymbolKind::Output };
             let span = variable.span.unwrap_or(self.declaration.name.span);
             let name = variable.name.clone();
             self.report(hs0143_local_without_equation::diagnostic(&name, kind, span, "", None));

@@ -93,7 +93,9 @@ impl<'a> Builder<'_, 'a> {
             _ => return None,
         };
         let is_parameter = |leaf: Leaf| match leaf {
-            Leaf::Variable(id) => matches!(self.variables[id.0 as usize].kind, VariableKind::Parameter { .. }),
+            Leaf::Variable(id) => {
+                matches!(self.variables[id.0 as usize].kind, VariableKind::Parameter { .. })
+            }
             _ => false,
         };
         self.graph.dependencies([other]).into_iter().all(is_parameter).then_some(other)

@@ -1,11 +1,12 @@
 use super::builder::Builder;
 use super::checks::Stray;
 use crate::checks::{
-    hs0108_defined_twice, hs0111_output_differs_from_state, hs0129_not_defined_by_equations, hs0130_branches_differ,
-    hs0131_loop_bounds,
+    hs0108_defined_twice, hs0111_output_differs_from_state, hs0129_not_defined_by_equations,
+    hs0130_branches_differ, hs0131_loop_bounds,
 };
 use crate::declarations::{
-    ComponentKind, Dialect, Direction, EquationDeclaration, EquationItem, Equations, ExpressionText, Loop, Target,
+    ComponentKind, Dialect, Direction, EquationDeclaration, EquationItem, Equations, ExpressionText, Loop,
+    Target,
 };
 use crate::lower::{Expected, Place, Shape, SymbolKind, SymbolValue, Typed, VariableSymbol};
 use sophy_diagnostics::Span;
@@ -138,7 +139,12 @@ impl<'a> Builder<'_, 'a> {
                 if definitions.iter().any(Option::is_none) {
                     let name = &self.variables[id.0 as usize].name;
                     let shown = if rates { format!("der({name})") } else { name.clone() };
-                    self.report(hs0130_branches_differ::diagnostic(&shown, some.target, span, otherwise.is_none()));
+                    self.report(hs0130_branches_differ::diagnostic(
+                        &shown,
+                        some.target,
+                        span,
+                        otherwise.is_none(),
+                    ));
                 }
                 let mut right = definitions.last().copied().flatten().and_then(|d| d.right);
                 for (definition, condition) in definitions.iter().zip(&conditions).rev() {
@@ -224,7 +230,8 @@ impl<'a> Builder<'_, 'a> {
         defined: &mut Defined,
     ) -> Option<(Vec<VariableId>, Expected)> {
         let name = &equation.target.name;
-        let found = self.symbols.get(&name.value).map(|symbol| (symbol.kind, symbol.span, symbol.value.clone()));
+        let found =
+            self.symbols.get(&name.value).map(|symbol| (symbol.kind, symbol.span, symbol.value.clone()));
         let xml = self.declaration.dialect == Dialect::Xml;
         let is_rate = equation.derivative;
         match found {
@@ -266,7 +273,10 @@ impl<'a> Builder<'_, 'a> {
     }
 
     fn is_output_port(&self, name: &str) -> bool {
-        self.declaration.ports.iter().any(|port| port.direction == Direction::Output && port.name.value == name)
+        self.declaration
+            .ports
+            .iter()
+            .any(|port| port.direction == Direction::Output && port.name.value == name)
     }
 
     /// The elements that a target names: all, a row, or one.

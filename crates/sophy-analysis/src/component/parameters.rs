@@ -4,7 +4,7 @@ use crate::checks::{
 };
 use crate::declarations::{Dialect, ExpressionText, KnobDeclaration, ParameterDeclaration, Spanned};
 use crate::dependency_order::dependency_order;
-use crate::lower::{Place, Symbol, SymbolKind, SymbolValue, Varies, VariableSymbol, names_in};
+use crate::lower::{Place, Symbol, SymbolKind, SymbolValue, VariableSymbol, Varies, names_in};
 use sophy_diagnostics::Span;
 use sophy_ir::{Quantity, Variable, VariableId, VariableKind};
 use std::collections::{HashMap, HashSet};
@@ -58,9 +58,12 @@ impl<'a> Builder<'_, 'a> {
             if let Some(SymbolValue::Function(function)) =
                 self.shared.globals.get(&names[next]).map(|symbol| &symbol.value)
             {
-                let arguments: HashSet<&str> = function.parameters.iter().map(|(p, _)| p.value.as_str()).collect();
+                let arguments: HashSet<&str> =
+                    function.parameters.iter().map(|(p, _)| p.value.as_str()).collect();
                 let of_body = names_in(&function.body).into_iter();
-                names.extend(of_body.filter(|name| !arguments.contains(name.as_str()) && known.insert(name.clone())));
+                names.extend(
+                    of_body.filter(|name| !arguments.contains(name.as_str()) && known.insert(name.clone())),
+                );
             }
             next += 1;
         }
@@ -78,7 +81,8 @@ impl<'a> Builder<'_, 'a> {
             self.report(hs0107_declared_twice::diagnostic(&name.value, (first_kind, first), (kind, again)));
         } else if let Some(function) = self.function_of_xml(&name.value) {
             let own = (kind, again);
-            let (first, again) = if function.1.start < again.start { (function, own) } else { (own, function) };
+            let (first, again) =
+                if function.1.start < again.start { (function, own) } else { (own, function) };
             self.report(hs0107_declared_twice::diagnostic(&name.value, first, again));
         }
         taken.is_none()
@@ -179,7 +183,8 @@ impl<'a> Builder<'_, 'a> {
                 span: Some(name.span),
             });
         }
-        if let (Some(range), false) = (parameter.knob.and_then(|knob| knob.range.as_ref()), known.is_empty()) {
+        if let (Some(range), false) = (parameter.knob.and_then(|knob| knob.range.as_ref()), known.is_empty())
+        {
             self.check_in_range(&name.value, range, &known, written.value.span);
         }
         let all_known = known.len() == elements.len();
@@ -193,9 +198,7 @@ impl<'a> Builder<'_, 'a> {
             known: all_known.then(|| Rc::from(known)),
         };
         let kind = self.parameter_kind(parameter);
-        self.symbols.redeclare(
-            &name.value,
-            Symbol { kind, span: name.span, value: SymbolValue::Variable(symbol) },
-        );
+        self.symbols
+            .redeclare(&name.value, Symbol { kind, span: name.span, value: SymbolValue::Variable(symbol) });
     }
 }

@@ -2,8 +2,7 @@ use super::builder::Builder;
 use super::checks::Stray;
 use super::equations::shape_of_part;
 use crate::checks::{
-    hs0108_defined_twice, hs0132_unknown_event, hs0133_not_assignable,
-    hs0134_hold_without_flag,
+    hs0108_defined_twice, hs0132_unknown_event, hs0133_not_assignable, hs0134_hold_without_flag,
 };
 use crate::declarations::{ComponentDeclaration, Dialect, ExpressionText, Spanned, Statement, Target};
 use crate::lower::{Elements, Place, SymbolKind, SymbolValue, Typed};

@@ -93,7 +93,9 @@ impl<'a> Builder<'_, 'a> {
 
     /// What is known of the unit of a variable. In SOPHY XML units are labels, nothing more.
     pub(crate) fn measured(&mut self, unit: Option<&Spanned<String>>) -> Measured {
-        let (Some(unit), Dialect::Hsml) = (unit, self.declaration.dialect) else { return Measured::Unchecked };
+        let (Some(unit), Dialect::Hsml) = (unit, self.declaration.dialect) else {
+            return Measured::Unchecked;
+        };
         match units::parse(&unit.value) {
             Ok(parsed) => {
                 for note in &parsed.notes {

@@ -166,9 +166,10 @@ impl<'a> Builder<'_, 'a> {
             let span = variable.kind.as_ref().map_or(variable.name.span, |kind| kind.name.span);
             self.report(hs0125_type_does_not_suit::variable(port.name(), kind.with_article(), span));
         }
-        let continuous = matches!(variable.role, VariableRole::State | VariableRole::Local | VariableRole::Flag)
-            && self.declaration.kind == ComponentKind::Ctc
-            && port.quantity() == Quantity::Real;
+        let continuous =
+            matches!(variable.role, VariableRole::State | VariableRole::Local | VariableRole::Flag)
+                && self.declaration.kind == ComponentKind::Ctc
+                && port.quantity() == Quantity::Real;
         let declared = Declared {
             name: &variable.name,
             documentation: &variable.documentation,
@@ -354,7 +355,8 @@ impl<'a> Builder<'_, 'a> {
             None if port.direction == Direction::Output && assigned.contains(name.value.as_str()) => {
                 declared.kind = SymbolKind::Mode;
                 declared.varies = Varies::Instants;
-                match self.enter(Declared { range: declared.range.clone(), ..declared }, VariableKind::Mode(None))
+                match self
+                    .enter(Declared { range: declared.range.clone(), ..declared }, VariableKind::Mode(None))
                 {
                     Some(first) => {
                         let declared = self.declared_again(port, kind, shape);
@@ -457,11 +459,7 @@ impl<'a> Builder<'_, 'a> {
         let quantities = [kind.quantity(), symbol.quantity];
         let numbers = quantities.iter().all(|q| matches!(q, Quantity::Real | Quantity::Integer));
         if !xml && (shape != symbol.shape || !(numbers || quantities[0] == quantities[1])) {
-            self.report(hs0128_port_differs::diagnostic(
-                &port.name.value,
-                port.name.span,
-                own.name.span,
-            ));
+            self.report(hs0128_port_differs::diagnostic(&port.name.value, port.name.span, own.name.span));
         }
     }
 

@@ -46,11 +46,7 @@ pub(crate) fn connect(builder: &mut Builder<'_, '_>, members: &Members, interfac
     wiring.composite
 }
 
-fn connect_items<'a>(
-    builder: &mut Builder<'_, 'a>,
-    items: &'a [ConnectionItem],
-    wiring: &mut Wiring<'_>,
-) {
+fn connect_items<'a>(builder: &mut Builder<'_, 'a>, items: &'a [ConnectionItem], wiring: &mut Wiring<'_>) {
     for item in items {
         match item {
             ConnectionItem::Connect { from, to } => connect_one(builder, from, to, wiring),
@@ -126,18 +122,16 @@ fn directions(builder: &mut Builder<'_, '_>, source: &End, target: &End) -> bool
 }
 
 fn values(builder: &mut Builder<'_, '_>, source: &End, target: &End, wiring: &mut Wiring<'_>) {
-    let (EndKind::Values { port: from, positions, shape }, EndKind::Values { port: to, positions: to_positions, shape: to_shape }) =
-        (&source.what, &target.what)
+    let (
+        EndKind::Values { port: from, positions, shape },
+        EndKind::Values { port: to, positions: to_positions, shape: to_shape },
+    ) = (&source.what, &target.what)
     else {
         return;
     };
     let receiver = target.member.and_then(|member| wiring.members.kinds.get(member).copied());
     if !suits(from.kind, to.kind, receiver) {
-        builder.report(hs0415_connected_types::diagnostic(
-            (from, source.span),
-            (to, target.span),
-            receiver,
-        ));
+        builder.report(hs0415_connected_types::diagnostic((from, source.span), (to, target.span), receiver));
         return;
     }
     if shape != to_shape {
@@ -201,7 +195,11 @@ fn suits(from: PortType, to: PortType, receiver: Option<ComponentKind>) -> bool 
 }
 
 /// What a written port stands for.
-pub(crate) fn end<'a>(builder: &mut Builder<'_, 'a>, written: &'a PortText, wiring: &Wiring<'_>) -> Option<End> {
+pub(crate) fn end<'a>(
+    builder: &mut Builder<'_, 'a>,
+    written: &'a PortText,
+    wiring: &Wiring<'_>,
+) -> Option<End> {
     match written.parts.as_slice() {
         [(name, indices)] => {
             let what = port_end(builder, name, indices, wiring.interface, &|| None, None)?;

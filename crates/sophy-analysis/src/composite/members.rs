@@ -131,7 +131,9 @@ fn add<'a>(
     // Numbers of variables may differ between forms of a class; names do not.
     let parameters = parameters
         .into_iter()
-        .filter_map(|(parameter, node)| Some((library.classes[class.0 as usize].variable_named(&parameter)?, node)))
+        .filter_map(|(parameter, node)| {
+            Some((library.classes[class.0 as usize].variable_named(&parameter)?, node))
+        })
         .collect();
     enter(builder, name, &element, members)?;
     members.list.push(Member {
@@ -248,7 +250,9 @@ fn parameters<'a>(
                 Some(values) => {
                     given.insert(name.value.clone(), values);
                 }
-                None => builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span)),
+                None => {
+                    builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span))
+                }
             }
         }
         for (id, node) in ids.into_iter().zip(nodes) {

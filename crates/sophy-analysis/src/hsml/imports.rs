@@ -22,7 +22,8 @@ pub fn read_with_imports(
     let bytes = world.read(path)?;
     let mut all = read_hsml(sources, &path.display().to_string(), &bytes);
     let mut known = HashSet::from([simplified(path)]);
-    let mut pending: VecDeque<(SourceId, Spanned<String>)> = imports(&mut all.declarations, all.source).collect();
+    let mut pending: VecDeque<(SourceId, Spanned<String>)> =
+        imports(&mut all.declarations, all.source).collect();
     while let Some((importing, import)) = pending.pop_front() {
         // An import without a path has been complained about.
         if import.value.is_empty() {
@@ -92,7 +93,8 @@ mod tests {
         let mut sources = Sources::default();
         let reading = read_with_imports(world, &mut sources, Path::new(path)).expect("the file is there");
         let functions = reading.declarations.functions.iter();
-        let functions = functions.map(|f| format!("{} of {}", f.name.value, sources.name(f.name.span.source)));
+        let functions =
+            functions.map(|f| format!("{} of {}", f.name.value, sources.name(f.name.span.source)));
         let messages = reading.diagnostics.iter().map(|d| render(d, &sources, Style::Plain)).collect();
         assert!(reading.declarations.imports.is_empty());
         (functions.collect(), messages, sources.name(reading.source).to_owned())

@@ -32,23 +32,28 @@ fn value(expression: &str, x: f64, y: f64) -> f64 {
 
 fn evaluate_equation(model: &Model, position: usize, x: f64, y: f64) -> f64 {
     let equation = &crate::testing::automaton(model).locations[0].dynamics[position];
-    evaluate(&model.root().graph, equation.right, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y))).real()
+    evaluate(&model.root().graph, equation.right, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y)))
+        .real()
 }
 
 fn leaf_value(model: &Model, leaf: Leaf, x: f64, y: f64) -> f64 {
     match leaf {
         Leaf::Time => 7.0,
-        Leaf::Variable(id) => match (model.root().variable(id).name.as_str(), model.root().variable(id).kind) {
+        Leaf::Variable(id) => match (model.root().variable(id).name.as_str(), model.root().variable(id).kind)
+        {
             ("x", _) => x,
             ("y", _) => y,
             (_, VariableKind::Parameter { value, .. }) => {
-                evaluate(&model.root().graph, value, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y))).real()
+                evaluate(&model.root().graph, value, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y)))
+                    .real()
             }
             (_, VariableKind::Output) => {
                 let location = &crate::testing::automaton(model).locations[0];
                 let map = location.values.iter().find(|equation| equation.variable == id).expect("a map");
-                evaluate(&model.root().graph, map.right, &mut |leaf| Value::Real(leaf_value(model, leaf, x, y)))
-                    .real()
+                evaluate(&model.root().graph, map.right, &mut |leaf| {
+                    Value::Real(leaf_value(model, leaf, x, y))
+                })
+                .real()
             }
             (name, kind) => panic!("{name} {kind:?} has no value"),
         },
@@ -147,8 +152,11 @@ fn constants_are_parameters_over_parameters() {
          location A
            der x = c",
     );
-    let VariableKind::State(Some(initial)) = model.root().variables[3].kind else { panic!("x starts somewhere") };
-    let start = evaluate(&model.root().graph, initial, &mut |leaf| Value::Real(leaf_value(&model, leaf, 0.0, 0.0)));
+    let VariableKind::State(Some(initial)) = model.root().variables[3].kind else {
+        panic!("x starts somewhere")
+    };
+    let start =
+        evaluate(&model.root().graph, initial, &mut |leaf| Value::Real(leaf_value(&model, leaf, 0.0, 0.0)));
     assert_eq!(start, Value::Real(10.0));
     let right = crate::testing::automaton(&model).locations[0].dynamics[0].right;
     let leaves: Vec<Leaf> = model.root().graph.dependencies([right]).into_iter().collect();

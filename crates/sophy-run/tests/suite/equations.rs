@@ -2,7 +2,7 @@
 //! derivatives and difference quotients, their enclosures against points, on random expression graphs.
 
 use proptest::prelude::*;
-use sophy_codegen::{Compiled, Parameters, compile};
+use sophy_codegen::{Compiled, Parameters, Sharing, compile_sharing};
 use sophy_field::{Formula, LocationIndex, SourceIndex, StateIndex};
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Model, Node, NodeId, System, Unary, Value, evaluate};
 use sophy_segment::Interval;
@@ -158,7 +158,9 @@ fn case(steps: &[Step], point: Point, tame: bool) -> Case {
 
 fn lowered(model: &Model, point: Point) -> Case {
     let system = sophy_passes::lower(model).expect("lowers");
-    let compiled = compile(&system, &Parameters::new(), 2).expect("compiles");
+    // Programs of their own and shared ones must not differ in a bit.
+    let sharing = if system.graph.len().is_multiple_of(2) { Sharing::Always } else { Sharing::Usual };
+    let compiled = compile_sharing(&system, &Parameters::new(), 2, sharing).expect("compiles");
     Case { system, compiled, point }
 }
 
@@ -247,9 +249,9 @@ impl Case {
         let rates = e.rates.iter().zip(&self.system.states);
         let watches = e.watches.iter().zip(&self.system.watches);
         rates
-            .map(|(code, state)| (&code.by_location[0], state.rate.by_location[0]))
+            .map(|(code, state)| (e.selected(*code, &HERE), state.rate.by_location[0]))
             .chain(watches.map(|(code, watch)| (&code.formula, watch.difference)))
-            .chain([(&e.outputs[0].by_location[0], self.system.outputs[0].value.by_location[0])])
+            .chain([(e.selected(e.outputs[0], &HERE), self.system.outputs[0].value.by_location[0])])
             .collect()
     }
 
@@ -258,7 +260,7 @@ impl Case {
         let e = &self.compiled.equations;
         for &entry in e.entries(&e.own[state]) {
             let block = e.block(entry, &HERE);
-            (e.run)(&e.programs[block.program as usize], memory, orders);
+            e.execute(&block.call, memory, orders);
             for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
                 if row.state == StateIndex::new(state) {
                     return e.result(row.result, memory, orders);
@@ -394,7 +396,7 @@ proptest! {
         let scale = 1.0 + d1.abs() + d2.abs();
         prop_assert!((along - d1).abs() < 1e-9 * scale, "{along} {d1}");
 
-        let formula = &case.compiled.equations.outputs[0].by_location[0];
+        let formula = case.compiled.equations.selected(case.compiled.equations.outputs[0], &HERE);
         let plain = case.compiled.equations.formula(formula, &HERE, &mut case.memory(&jets), 3);
         let lifted = case.rate(0, &mut case.memory(&jets), 3);
         for c in [plain, lifted] {
@@ -435,7 +437,7 @@ proptest! {
             let at = e.layout.series_of(SourceIndex(k as u32));
             enclosed[at..at + 3].copy_from_slice(&[value, slope, c2]);
         }
-        let rates = e.rates.iter().map(|rate| &rate.by_location[0]);
+        let rates = e.rates.iter().map(|rate| e.selected(*rate, &HERE));
         for formula in rates.chain(e.watches.iter().map(|watch| &watch.formula)) {
             let enclosure = e.formula_enclosed(formula, &HERE, &mut enclosed.clone());
             for &part in &inside {

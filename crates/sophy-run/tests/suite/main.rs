@@ -13,6 +13,7 @@ mod inputs;
 mod jacobian;
 mod limits;
 mod promises;
+mod shapes;
 mod simultaneous;
 mod support;
 mod switches;

@@ -2,10 +2,12 @@ use super::record::Record;
 use super::settings::Settings;
 use super::watches::WatchRecord;
 use sophy_field::{
-    Agenda, Block, Changes, Engine, Entry, Equations, Fault, Journal, LocationIndex, RowResult, SourceIndex,
-    Start, StateIndex, Statistics, Stop, WatchIndex,
+    Agenda, AutomatonIndex, Block, Changes, Engine, Entry, Equations, Fault, Journal, LocationIndex,
+    RowResult, SourceIndex, Start, StateIndex, Statistics, Stop, WatchIndex,
 };
 use sophy_segment::{Interval, Sign};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 /// The quantised-state engine of order `ORDER`: 1 is QSS1, 2 is QSS2.
 ///
@@ -29,15 +31,17 @@ pub struct Qss<const ORDER: usize> {
     pub(super) memory: Vec<f64>,
     /// The same for enclosures.
     pub(super) enclosed: Vec<Interval>,
-    /// Watches to look at again before time goes on.
+    /// Watches to look at again before time goes on; while they are settled, the next of them in order.
     pub(super) dirty: Vec<WatchIndex>,
+    pub(super) settling: BinaryHeap<Reverse<WatchIndex>>,
     /// Watches of guards whose sign changed, for the hybrid logic.
     pub(super) changed: Vec<WatchIndex>,
     /// Entries to evaluate in a change, states that start afresh there, and their slopes; empty in between.
     pub(super) entries: Vec<Entry>,
     fresh: Vec<StateIndex>,
-    /// Automata that enter a location in a change.
+    /// Automata that enter a location in a change: each, and which.
     entered: Vec<bool>,
+    entering: Vec<AutomatonIndex>,
     slopes: Vec<(usize, f64)>,
     pub(super) statistics: Statistics,
 }
@@ -77,11 +81,13 @@ impl<const ORDER: usize> Qss<ORDER> {
             agenda: Agenda::new(states + watches),
             memory: equations.image.clone(),
             enclosed: equations.image.iter().map(|&value| Interval::point(value)).collect(),
-            dirty: Vec::with_capacity(watches),
-            changed: Vec::with_capacity(watches),
+            dirty: Vec::new(),
+            settling: BinaryHeap::new(),
+            changed: Vec::new(),
             entries: Vec::new(),
             fresh: Vec::new(),
             entered: vec![false; equations.automata.len()],
+            entering: Vec::new(),
             slopes: Vec::new(),
             statistics: Statistics::default(),
         }
@@ -157,7 +163,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.memory[at] = record.q_at(t);
             self.memory[at + 1] = record.q[1];
         }
-        (e.run)(&e.programs[block.program as usize], &mut self.memory, orders);
+        e.execute(&block.call, &mut self.memory, orders);
     }
 
     /// δ_ext: a new rate arrives (algorithm 3.1). `rate` holds f, ḟ, ½f̈ along q.
@@ -197,7 +203,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients });
         }
         self.schedule(i, t);
-        for &watch in &e.watches_of_source[i] {
+        for &watch in e.watches_of_source.row(i) {
             self.mark(watch);
         }
         Ok(())
@@ -298,7 +304,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         entries.clear();
         fresh.clear();
-        self.entered.fill(false);
+        for automaton in self.entering.drain(..) {
+            self.entered[automaton.position()] = false;
+        }
         (self.entries, self.fresh) = (entries, fresh);
         Ok(())
     }
@@ -357,10 +365,15 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.disarm(e, watch);
         }
         self.locations[automaton] = location;
-        self.entered[automaton] = true;
+        self.note_entered(AutomatonIndex::new(automaton));
         self.decide_again(&code.readers);
         let changed = code.row_of[from].iter().zip(&code.row_of[to]).map(|(a, b)| a != b);
         self.fresh.extend(code.states.iter().zip(changed).filter_map(|(&s, changed)| changed.then_some(s)));
+    }
+
+    fn note_entered(&mut self, automaton: AutomatonIndex) {
+        self.entered[automaton.position()] = true;
+        self.entering.push(automaton);
     }
 }
 
@@ -390,8 +403,8 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
             }
         }
         self.guess_truths(e, t);
-        self.entered.fill(true);
-        for range in &e.on_location {
+        for (automaton, range) in e.on_location.iter().enumerate() {
+            self.note_entered(AutomatonIndex::new(automaton));
             self.entries.extend_from_slice(e.entries(range));
         }
         self.evaluate_afresh(e, t, journal)?;
@@ -496,7 +509,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         let mut memory = self.memory.clone();
         let mut entries = Vec::new();
         for (i, rate) in e.rates.iter().enumerate() {
-            let formula = &rate.by_location[self.locations[rate.owner.position()].position()];
+            let formula = e.selected(*rate, &self.locations);
             let sources = e.sources(&formula.sources);
             for &source in sources {
                 for &other in sources {

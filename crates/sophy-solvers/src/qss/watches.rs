@@ -3,6 +3,7 @@
 use super::engine::{MOST_REPEATS, Qss};
 use sophy_field::{Equations, Fault, Formula, Journal, Record, SourceIndex, WatchIndex, sign_bit};
 use sophy_segment::{Interval, Search, Sign, Start, first_crossing, parabola_crossing};
+use std::cmp::Reverse;
 
 /// What is known of a watch.
 ///
@@ -86,7 +87,7 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// A source was set from outside: the watches that read it are decided anew.
     pub(super) fn touch(&mut self, e: &Equations, source: SourceIndex) {
-        self.decide_again(&e.watches_of_source[source.position()]);
+        self.decide_again(e.watches_of_source.row(source.position()));
     }
 
     /// What watches read has jumped.
@@ -149,9 +150,9 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// more: a switch that changes may change rates, and these other signs.
     pub(super) fn settle(&mut self, e: &Equations, t: f64, journal: &mut Journal) -> Result<(), Fault> {
         let mut rounds = 0;
-        while !self.dirty.is_empty() {
-            self.dirty.sort_unstable();
-            let watch = self.dirty.remove(0);
+        loop {
+            self.settling.extend(self.dirty.drain(..).map(Reverse));
+            let Some(Reverse(watch)) = self.settling.pop() else { break };
             let record = &mut self.watches[watch.position()];
             record.dirty = false;
             let fresh = std::mem::replace(&mut record.fresh, Fresh::No);
@@ -183,8 +184,12 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// Truths and stairs of fresh watches by value alone, before rates are known; [`Qss::settle`] corrects
     /// them. What reads one that changes is evaluated with the change.
     pub(super) fn guess_truths(&mut self, e: &Equations, t: f64) {
-        for index in 0..e.watches.len() {
-            let watch = WatchIndex::new(index);
+        // Whoever makes a watch fresh marks it; more may be marked here, but none becomes fresh.
+        self.dirty.sort_unstable();
+        let marked = self.dirty.len();
+        for position in 0..marked {
+            let watch = self.dirty[position];
+            let index = watch.position();
             let record = self.watches[index];
             if record.armed == 0 || record.fresh == Fresh::No {
                 continue;
@@ -311,9 +316,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         // On the edge, located or to rounding: the next one. Thrown further by a jump: where it is.
         let on_edge = located || (argument - edge).abs() <= 4.0 * (edge.abs().next_up() - edge.abs());
         self.set_scalar(at, if on_edge { next } else { argument.floor() });
-        for (index, code) in e.watches.iter().enumerate() {
-            if code.stair.is_some_and(|(other, _)| other == stair) && self.watches[index].armed > 0 {
-                let other = WatchIndex::new(index);
+        for other in e.stairs[stair as usize] {
+            let index = other.position();
+            if self.watches[index].armed > 0 {
                 let raw = self.raw_difference(e, other, t)?[0];
                 let takes_over = on_edge && other != watch;
                 self.watches[index].bias = if takes_over { raw } else { 0.0 };

@@ -1,0 +1,76 @@
+//! What belongs to each automaton.
+
+use crate::blocks::Gather;
+use crate::watches::Watching;
+use sophy_field::{AlgebraicIndex, AutomatonCode, StateIndex, Table};
+use sophy_ir::{Leaf, System};
+use std::ops::Range;
+
+/// The rows that each automaton selects.
+pub(crate) struct Owned {
+    states: Table<StateIndex>,
+    algebraics: Table<AlgebraicIndex>,
+}
+
+impl Owned {
+    pub(crate) fn new(system: &System) -> Self {
+        let automata = system.automata.len();
+        let states = system.states.iter().enumerate();
+        let states: Vec<_> = states.map(|(i, s)| (s.rate.owner.0, StateIndex::new(i))).collect();
+        let algebraics = system.algebraics.iter().enumerate();
+        let algebraics: Vec<_> = algebraics.map(|(i, z)| (z.value.owner.0, AlgebraicIndex::new(i))).collect();
+        Owned {
+            states: Table::from_pairs(automata, &states),
+            algebraics: Table::from_pairs(automata, &algebraics),
+        }
+    }
+
+    /// What to evaluate when an automaton changes its location: its own rates, and those of others that read
+    /// its algebraic variables.
+    pub(crate) fn entries(&self, gather: &mut Gather<'_>, automaton: usize) -> Range<u32> {
+        let mut states = self.states.row(automaton).to_vec();
+        for &z in self.algebraics.row(automaton) {
+            states.extend(gather.readers(Leaf::Algebraic(z)).iter().map(|reader| reader.state));
+        }
+        gather.all_of(states)
+    }
+
+    pub(crate) fn automata(&self, gather: &mut Gather<'_>, watching: &Watching) -> Vec<AutomatonCode> {
+        let automata = gather.system.automata.iter().enumerate();
+        let readers = watching.of_automata();
+        automata
+            .map(|(a, automaton)| {
+                let locations = 0..automaton.locations.len();
+                AutomatonCode {
+                    states: self.states.row(a).to_vec(),
+                    readers: readers.row(a).to_vec(),
+                    armed: locations.clone().map(|l| self.armed(gather, a, l)).collect(),
+                    row_of: locations.map(|l| self.right_hand_sides(gather.system, a, l)).collect(),
+                }
+            })
+            .collect()
+    }
+
+    /// Which right-hand side each state has in a location.
+    fn right_hand_sides(&self, system: &System, automaton: usize, location: usize) -> Vec<u32> {
+        let row = |s: &StateIndex| system.states[s.position()].rate.by_location[location];
+        self.states.row(automaton).iter().map(|s| row(s).position() as u32).collect()
+    }
+
+    /// Watches that a location needs: those of its guards and of the switches in the rows it selects.
+    fn armed(
+        &self,
+        gather: &mut Gather<'_>,
+        automaton: usize,
+        location: usize,
+    ) -> Vec<sophy_field::WatchIndex> {
+        let system = gather.system;
+        let states = self.states.row(automaton).iter().map(|s| &system.states[s.position()].rate);
+        let algebraics = self.algebraics.row(automaton).iter();
+        let algebraics = algebraics.map(|z| &system.algebraics[z.position()].value);
+        let rows = states.chain(algebraics).map(|row| row.by_location[location]);
+        let outgoing = system.automata[automaton].locations[location].transitions.iter();
+        let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
+        gather.incidence.watches_below(rows.chain(guards))
+    }
+}

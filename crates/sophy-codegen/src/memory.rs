@@ -1,0 +1,138 @@
+//! Where everything that outlives a program stands.
+
+use sophy_field::{Layout, Operand, SourceIndex};
+use sophy_ir::{Leaf, Node, NodeId, System};
+
+/// Which jets a program reads: q for rates, x for guards, resets and outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Quantised,
+    Series,
+}
+
+/// The memory of a system; temporaries of programs stand behind it.
+pub(crate) struct Memory {
+    pub(crate) layout: Layout,
+    /// First jet of the algebraic variables, per side.
+    algebraics: [u32; 2],
+    /// First parameter.
+    pub(crate) parameters: u32,
+    /// First of the pool of numbers and parametric expressions.
+    pub(crate) pool: u32,
+    /// Parametric expressions and numbers in the pool, in order.
+    pub(crate) pooled: Vec<NodeId>,
+    /// Per node: its place in the pool, or `ABSENT`.
+    known: Vec<u32>,
+    /// Per node: whether it is over parameters only.
+    parametric: Vec<bool>,
+}
+
+const ABSENT: u32 = u32::MAX;
+
+impl Memory {
+    pub(crate) fn new(system: &System, width: u32) -> Self {
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX / 8);
+        let (states, inputs) = (count(system.states.len()), count(system.inputs.len()));
+        let sources = (states + inputs + 1) * width;
+        let algebraics = count(system.algebraics.len()) * width;
+        let truths = 2 * sources + 2 * algebraics;
+        let stairs = truths + count(system.truths.len());
+        let parameters = stairs + count(system.stairs.len());
+        Memory {
+            layout: Layout {
+                width,
+                states,
+                inputs,
+                quantised: 0,
+                series: sources,
+                truths,
+                stairs,
+                length: 0,
+            },
+            algebraics: [2 * sources, 2 * sources + algebraics],
+            parameters,
+            pool: parameters + count(system.parameters.len()),
+            pooled: Vec::new(),
+            known: vec![ABSENT; system.graph.len()],
+            parametric: parametric(system),
+        }
+    }
+
+    /// Whether an expression depends on parameters and numbers only.
+    pub(crate) fn is_parametric(&self, node: NodeId) -> bool {
+        self.parametric[node.position()]
+    }
+
+    /// The jet of an algebraic variable.
+    pub(crate) fn algebraic(&self, side: Side, index: usize) -> u32 {
+        self.algebraics[side as usize] + index as u32 * self.layout.width
+    }
+
+    /// Where a node stands that needs no instruction: a leaf, or what depends on parameters only, which is
+    /// evaluated once, before the run.
+    pub(crate) fn place(&mut self, system: &System, side: Side, node: NodeId) -> Option<Operand> {
+        let layout = self.layout;
+        let source = |index: u32| {
+            let first = if side == Side::Quantised { layout.quantised } else { layout.series };
+            Operand::Jet(first + index * layout.width)
+        };
+        Some(match system.graph.node(node) {
+            Node::Leaf(leaf) => match leaf {
+                Leaf::State(i) => source(i.0),
+                Leaf::Input(i) => source(layout.states + i.0),
+                Leaf::Time => source(layout.states + layout.inputs),
+                Leaf::Parameter(i) => Operand::Scalar(self.parameters + i.0),
+                Leaf::Truth(i) => Operand::Scalar(layout.truths + i.0),
+                Leaf::Stair(i) => Operand::Scalar(layout.stairs + i.0),
+                Leaf::Algebraic(i) => Operand::Jet(self.algebraic(side, i.position())),
+                // Only models refer to variables; the verifier has seen to it.
+                Leaf::Variable(_) | Leaf::Special(_) => Operand::Scalar(self.parameters),
+            },
+            _ if self.is_parametric(node) => Operand::Scalar(self.pooled(node)),
+            _ => return None,
+        })
+    }
+
+    /// The scalar that holds a parametric expression.
+    fn pooled(&mut self, node: NodeId) -> u32 {
+        let known = &mut self.known[node.position()];
+        if *known == ABSENT {
+            *known = self.pool + self.pooled.len() as u32;
+            self.pooled.push(node);
+        }
+        *known
+    }
+
+    /// Where temporaries begin, once the pool is complete.
+    pub(crate) fn end(&self) -> u32 {
+        self.pool + self.pooled.len() as u32
+    }
+}
+
+fn parametric(system: &System) -> Vec<bool> {
+    let graph = &system.graph;
+    let mut known: Vec<bool> = Vec::with_capacity(graph.len());
+    // Operands stand before users.
+    for id in graph.ids() {
+        let parametric = match graph.node(id) {
+            Node::Leaf(leaf) => matches!(leaf, Leaf::Parameter(_)),
+            _ => {
+                let mut all = true;
+                graph.operands(id, |operand| all &= known[operand.position()]);
+                all
+            }
+        };
+        known.push(parametric);
+    }
+    known
+}
+
+/// The sources among leaves: states, inputs and time.
+pub(crate) fn source_of(leaf: Leaf, layout: Layout) -> Option<SourceIndex> {
+    match leaf {
+        Leaf::State(i) => Some(SourceIndex(i.0)),
+        Leaf::Input(i) => Some(SourceIndex(layout.states + i.0)),
+        Leaf::Time => Some(layout.time()),
+        _ => None,
+    }
+}

@@ -1,0 +1,348 @@
+//! Equal equations are compiled once: what is to be computed is first written down by its *shape*, and becomes
+//! programs only when it is known how often each shape occurs.
+
+use crate::memory::{Memory, Side};
+use crate::programs::Compiler;
+use rustc_hash::FxHashMap;
+use sophy_field::{Call, Operand, Program};
+use sophy_ir::{Leaf, Node, NodeId, System};
+use std::ops::Range;
+
+/// When equal equations share a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sharing {
+    /// Where there are several copies; a few of them keep programs of their own, which gather no operands.
+    #[default]
+    Usual,
+    /// As soon as there are two.
+    Always,
+    /// Never.
+    Never,
+}
+
+impl Sharing {
+    /// From how many uses on a program is shared.
+    fn least_uses(self) -> u32 {
+        match self {
+            Sharing::Usual => 8,
+            Sharing::Always => 2,
+            Sharing::Never => u32::MAX,
+        }
+    }
+}
+
+/// What was asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct RequestIndex(pub(crate) u32);
+
+/// Values to be computed together, by one call.
+struct Request {
+    /// Its shape; `TRIVIAL` if everything stands somewhere already.
+    shape: u32,
+    side: Side,
+    roots: Range<u32>,
+    operands: Range<u32>,
+    /// Where the value is to be stored, or `NOWHERE`.
+    to: u32,
+}
+
+const TRIVIAL: u32 = u32::MAX;
+const NOWHERE: u32 = u32::MAX;
+
+/// All requests, by shape.
+#[derive(Default)]
+pub(crate) struct Shapes {
+    reader: Reader,
+    known: FxHashMap<Box<[u32]>, u32>,
+    /// Per shape.
+    uses: Vec<u32>,
+    requests: Vec<Request>,
+    roots: Vec<NodeId>,
+    operands: Vec<u32>,
+}
+
+impl Shapes {
+    /// Asks for the values of `roots`, or that of one root to be stored at `to`. The leaves that it reads are
+    /// in [`Shapes::leaves`] until the next request.
+    pub(crate) fn request(
+        &mut self,
+        system: &System,
+        memory: &mut Memory,
+        side: Side,
+        roots: &[NodeId],
+        to: Option<u32>,
+    ) -> RequestIndex {
+        let (first_root, first_operand) = (self.roots.len() as u32, self.operands.len() as u32);
+        self.roots.extend_from_slice(roots);
+        self.reader.read(system, memory, roots, to.is_some());
+        let mut shape = TRIVIAL;
+        if self.reader.computes {
+            shape = match self.known.get(self.reader.key.as_slice()) {
+                Some(&known) => known,
+                None => {
+                    let fresh = self.uses.len() as u32;
+                    self.known.insert(self.reader.key.as_slice().into(), fresh);
+                    self.uses.push(0);
+                    fresh
+                }
+            };
+            self.uses[shape as usize] += 1;
+        }
+        // Also what becomes no operand gets its place now: temporaries begin behind all of them.
+        for &literal in &self.reader.literals {
+            memory.place(system, side, literal);
+        }
+        for &operand in &self.reader.operands {
+            let place = memory.place(system, side, operand).map(offset);
+            self.operands.extend(place.filter(|_| shape != TRIVIAL));
+        }
+        self.operands.extend(to);
+        self.requests.push(Request {
+            shape,
+            side,
+            roots: first_root..self.roots.len() as u32,
+            operands: first_operand..self.operands.len() as u32,
+            to: to.unwrap_or(NOWHERE),
+        });
+        RequestIndex(self.requests.len() as u32 - 1)
+    }
+
+    /// The leaves, other than parameters, that the last request reads, each once.
+    pub(crate) fn leaves(&self) -> &[Leaf] {
+        &self.reader.leaves
+    }
+}
+
+fn offset(operand: Operand) -> u32 {
+    match operand {
+        Operand::Jet(at) | Operand::Scalar(at) => at,
+    }
+}
+
+/// Reads expressions into keys. Two have one key if they are the same up to which jets, scalars and numbers
+/// (but 0, ±1, 2 and ½) they read; what one of them reads twice the other does too.
+#[derive(Default)]
+struct Reader {
+    round: u32,
+    /// Per node: the round in which it was read last, and its number then.
+    numbers: Vec<(u32, u32)>,
+    pending: Vec<(NodeId, bool)>,
+    count: u32,
+    key: Vec<u32>,
+    /// Nodes that stand somewhere, in the order in which they are met.
+    operands: Vec<NodeId>,
+    /// Numbers that belong to the shape.
+    literals: Vec<NodeId>,
+    leaves: Vec<Leaf>,
+    /// Whether anything must be computed at all.
+    computes: bool,
+}
+
+/// Kinds of items in a key; what follows each has a fixed length.
+mod kind {
+    pub(super) const NUMBER: u32 = 0;
+    pub(super) const SCALAR: u32 = 1;
+    pub(super) const JET: u32 = 2;
+    pub(super) const UNARY: u32 = 3;
+    pub(super) const BINARY: u32 = 4;
+    pub(super) const INTEGER_POWER: u32 = 5;
+    pub(super) const COMPARE: u32 = 6;
+    pub(super) const NOT: u32 = 7;
+    pub(super) const AND: u32 = 8;
+    pub(super) const OR: u32 = 9;
+    pub(super) const SELECT: u32 = 10;
+    pub(super) const RESULT: u32 = 11;
+    pub(super) const STORED: u32 = 12;
+}
+
+impl Reader {
+    fn read(&mut self, system: &System, memory: &Memory, roots: &[NodeId], stored: bool) {
+        if self.numbers.len() < system.graph.len() {
+            self.numbers.resize(system.graph.len(), (0, 0));
+        }
+        self.round += 1;
+        self.count = 0;
+        self.key.clear();
+        self.operands.clear();
+        self.literals.clear();
+        self.leaves.clear();
+        self.computes = stored;
+        for &root in roots {
+            self.pending.push((root, false));
+            while let Some((node, operands_read)) = self.pending.pop() {
+                self.visit(system, memory, node, operands_read);
+            }
+        }
+        for root in roots {
+            self.key.extend([kind::RESULT, self.numbers[root.position()].1]);
+        }
+        self.key.push(if stored { kind::STORED } else { kind::RESULT });
+    }
+
+    fn visit(&mut self, system: &System, memory: &Memory, id: NodeId, operands_read: bool) {
+        if self.numbers[id.position()].0 == self.round {
+            return;
+        }
+        let node = system.graph.node(id);
+        let stands = matches!(node, Node::Leaf(_)) || memory.is_parametric(id);
+        if !stands && !operands_read {
+            // Taken from the end: the first operand is read first, then the node itself.
+            self.pending.push((id, true));
+            let first = self.pending.len();
+            system.graph.operands(id, |operand| self.pending.push((operand, false)));
+            self.pending[first..].reverse();
+            return;
+        }
+        self.numbers[id.position()] = (self.round, self.count);
+        self.count += 1;
+        if stands {
+            self.stands(id, node);
+        } else {
+            self.computes = true;
+            self.operation(node);
+        }
+    }
+
+    fn stands(&mut self, id: NodeId, node: Node) {
+        if let Some(number) = literal(node) {
+            self.key.extend([kind::NUMBER, number]);
+            self.literals.push(id);
+            return;
+        }
+        self.operands.push(id);
+        match node {
+            Node::Leaf(leaf) => {
+                let jet = matches!(leaf, Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_));
+                self.key.push(if jet { kind::JET } else { kind::SCALAR });
+                if !matches!(leaf, Leaf::Parameter(_)) {
+                    self.leaves.push(leaf);
+                }
+            }
+            _ => self.key.push(kind::SCALAR),
+        }
+    }
+
+    fn operation(&mut self, node: Node) {
+        let of = |operand: NodeId| self.numbers[operand.position()].1;
+        match node {
+            Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => {}
+            Node::Unary(function, a) => self.key.extend([kind::UNARY, function as u32, of(a)]),
+            Node::Binary(function, a, b) => self.key.extend([kind::BINARY, function as u32, of(a), of(b)]),
+            Node::IntegerPower(a, n) => self.key.extend([kind::INTEGER_POWER, of(a), n as u32]),
+            Node::Compare(comparison, a, b) => {
+                self.key.extend([kind::COMPARE, comparison as u32, of(a), of(b)]);
+            }
+            Node::Not(a) => self.key.extend([kind::NOT, of(a)]),
+            Node::And(a, b) => self.key.extend([kind::AND, of(a), of(b)]),
+            Node::Or(a, b) => self.key.extend([kind::OR, of(a), of(b)]),
+            Node::Select(c, a, b) => self.key.extend([kind::SELECT, of(c), of(a), of(b)]),
+        }
+    }
+}
+
+/// Numbers that belong to a shape; all others are operands.
+fn literal(node: Node) -> Option<u32> {
+    match node {
+        Node::Number(bits) => {
+            let position = [0.0f64, 1.0, -1.0, 2.0, 0.5].iter().position(|n| n.to_bits() == bits);
+            position.map(|position| position as u32)
+        }
+        Node::Boolean(value) => Some(8 + u32::from(value)),
+        _ => None,
+    }
+}
+
+/// What all requests became.
+#[derive(Default)]
+pub(crate) struct Programs {
+    pub(crate) programs: Vec<Program>,
+    pub(crate) operands: Vec<u32>,
+    /// The most temporaries (numbers) any program needs.
+    pub(crate) temporaries: u32,
+    /// Whether switches nest too deep somewhere.
+    pub(crate) too_deep: bool,
+}
+
+/// Turns requests into calls.
+pub(crate) struct Emitter<'a> {
+    system: &'a System,
+    memory: &'a mut Memory,
+    shapes: Shapes,
+    compiler: Compiler<'a>,
+    least_uses: u32,
+    /// Per shape: its shared program and where the results stand.
+    shared: Vec<Option<(u32, Vec<Operand>)>>,
+    made: Programs,
+}
+
+impl<'a> Emitter<'a> {
+    /// All requests must have been made.
+    pub(crate) fn new(system: &'a System, memory: &'a mut Memory, shapes: Shapes, sharing: Sharing) -> Self {
+        Emitter {
+            compiler: Compiler::new(system, memory.layout.width, memory.end()),
+            shared: vec![None; shapes.uses.len()],
+            made: Programs { programs: vec![Program::default()], ..Programs::default() },
+            least_uses: sharing.least_uses(),
+            system,
+            memory,
+            shapes,
+        }
+    }
+
+    /// The call that answers a request; where its values stand is appended to `results`.
+    pub(crate) fn call(&mut self, request: RequestIndex, results: &mut Vec<Operand>) -> Call {
+        let request = &self.shapes.requests[request.0 as usize];
+        let roots = &self.shapes.roots[request.roots.start as usize..request.roots.end as usize];
+        if request.shape == TRIVIAL {
+            let (system, side) = (self.system, request.side);
+            results.extend(roots.iter().filter_map(|&root| self.memory.place(system, side, root)));
+            return Call::default();
+        }
+        if self.shapes.uses[request.shape as usize] < self.least_uses {
+            let to = (request.to != NOWHERE).then_some(request.to);
+            self.compiler.begin(0);
+            results.extend(self.compiler.compile(self.memory, request.side, roots, to));
+            let program = self.made.add(self.compiler.finish());
+            return Call { program, operands: 0..0 };
+        }
+        let first = self.made.operands.len() as u32;
+        let operands = request.operands.start as usize..request.operands.end as usize;
+        self.made.operands.extend_from_slice(&self.shapes.operands[operands.clone()]);
+        let (program, places) = match &mut self.shared[request.shape as usize] {
+            Some(known) => known,
+            missing => {
+                let stored = request.to != NOWHERE;
+                self.compiler.begin(operands.len() as u32);
+                self.shapes.reader.read(self.system, self.memory, roots, stored);
+                for (number, &operand) in (0..).zip(&self.shapes.reader.operands) {
+                    let jet = matches!(
+                        self.memory.place(self.system, request.side, operand),
+                        Some(Operand::Jet(_))
+                    );
+                    self.compiler.gathered(operand, number, jet);
+                }
+                let places = if stored {
+                    self.compiler.compile_stored(self.memory, request.side, roots, operands.len() as u32 - 1)
+                } else {
+                    self.compiler.compile(self.memory, request.side, roots, None)
+                };
+                let program = self.made.add(self.compiler.finish());
+                missing.insert((program, places))
+            }
+        };
+        results.extend_from_slice(places);
+        Call { program: *program, operands: first..self.made.operands.len() as u32 }
+    }
+
+    /// Everything made.
+    pub(crate) fn finish(self) -> Programs {
+        Programs { temporaries: self.compiler.temporaries, too_deep: self.compiler.too_deep, ..self.made }
+    }
+}
+
+impl Programs {
+    fn add(&mut self, program: Program) -> u32 {
+        self.programs.push(program);
+        self.programs.len() as u32 - 1
+    }
+}

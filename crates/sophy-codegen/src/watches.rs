@@ -1,0 +1,135 @@
+//! Watches: who decides what, and who reads it.
+
+use crate::blocks::Gather;
+use crate::memory::source_of;
+use sophy_field::{StairIndex, Table, TruthIndex, WatchCode, WatchIndex, sign_bit};
+use sophy_ir::{Comparison, Leaf, System};
+use sophy_segment::Sign;
+
+/// The web of watches, truths and stairs of a system.
+pub(crate) struct Watching {
+    /// Per watch: the truths and stairs it decides.
+    decided: Table<Leaf>,
+    /// Per watch: the watches that read what it decides.
+    dependents: Table<WatchIndex>,
+    /// Per watch: whether a guard reads what it decides.
+    guards: Vec<bool>,
+    /// Pairs of a source and a watch that reads it, and of an automaton and a watch that reads one of its
+    /// algebraic variables.
+    sources: Table<WatchIndex>,
+    automata: Table<WatchIndex>,
+}
+
+impl Watching {
+    pub(crate) fn new(gather: &mut Gather<'_>) -> Self {
+        let system = gather.system;
+        let (layout, count) = (gather.memory.layout, system.watches.len());
+        let (mut dependents, mut sources, mut automata) = (Vec::new(), Vec::new(), Vec::new());
+        for (position, watch) in system.watches.iter().enumerate() {
+            let reader = WatchIndex::new(position);
+            gather.incidence.closure([watch.difference]);
+            for &leaf in gather.incidence.found() {
+                sources.extend(source_of(leaf, layout).map(|source| (source.0, reader)));
+                if let Leaf::Algebraic(z) = leaf {
+                    automata.push((system.algebraics[z.position()].value.owner.0, reader));
+                }
+                let deciders = gather.incidence.deciders(leaf).into_iter().flatten();
+                dependents.extend(deciders.map(|decider| (decider.0, reader)));
+            }
+        }
+        let mut guards = vec![false; count];
+        for guard in system.transitions.iter().filter_map(|t| t.trigger.guard()) {
+            gather.incidence.direct_leaves(guard);
+            for &leaf in gather.incidence.found() {
+                for decider in gather.incidence.deciders(leaf).into_iter().flatten() {
+                    guards[decider.position()] = true;
+                }
+            }
+        }
+        Watching {
+            decided: Table::from_pairs(count, &decided(system)),
+            dependents: once(count, dependents),
+            guards,
+            sources: once(layout.sources(), sources),
+            automata: once(system.automata.len(), automata),
+        }
+    }
+
+    /// Per watch: the truths and stairs it decides.
+    pub(crate) fn decided(&self) -> impl Iterator<Item = &[Leaf]> {
+        (0..self.guards.len()).map(|watch| self.decided.row(watch))
+    }
+
+    /// Per source: the watches that read it, directly or through algebraic variables.
+    pub(crate) fn of_sources(&self) -> Table<WatchIndex> {
+        self.sources.clone()
+    }
+
+    /// Per automaton: the watches that read one of its algebraic variables.
+    pub(crate) fn of_automata(&self) -> &Table<WatchIndex> {
+        &self.automata
+    }
+
+    pub(crate) fn codes(&self, gather: &mut Gather<'_>) -> Vec<WatchCode> {
+        (0..self.guards.len()).map(|watch| self.code(gather, WatchIndex::new(watch))).collect()
+    }
+
+    fn code(&self, gather: &mut Gather<'_>, index: WatchIndex) -> WatchCode {
+        let system = gather.system;
+        let watch = &system.watches[index.position()];
+        let decided = self.decided.row(index.position());
+        let truths = decided.iter().filter_map(|leaf| match leaf {
+            Leaf::Truth(i) => Some((i.0, signs_of(system.truths[i.position()].comparison))),
+            _ => None,
+        });
+        let stair = decided.iter().find_map(|leaf| match leaf {
+            Leaf::Stair(i) => {
+                let step = if system.stairs[i.position()].lower == index { -1.0 } else { 1.0 };
+                Some((i.0, step))
+            }
+            _ => None,
+        });
+        WatchCode {
+            truths: truths.collect(),
+            stair,
+            dependents: self.dependents.row(index.position()).to_vec(),
+            guard: self.guards[index.position()],
+            affine: watch.affine,
+            formula: gather.formula(watch.difference, false),
+            left: gather.formula(watch.left, false),
+            right: gather.formula(watch.right, false),
+        }
+    }
+}
+
+/// Pairs of a watch and what it decides: truths, then stairs.
+fn decided(system: &System) -> Vec<(u32, Leaf)> {
+    let truths = system.truths.iter().enumerate();
+    let mut pairs: Vec<_> =
+        truths.map(|(i, truth)| (truth.watch.0, Leaf::Truth(TruthIndex::new(i)))).collect();
+    for (i, stair) in system.stairs.iter().enumerate() {
+        let leaf = Leaf::Stair(StairIndex::new(i));
+        pairs.extend([(stair.lower.0, leaf), (stair.upper.0, leaf)]);
+    }
+    pairs
+}
+
+/// A table of pairs, each counted once, rows in the order of watches.
+fn once(rows: usize, mut pairs: Vec<(u32, WatchIndex)>) -> Table<WatchIndex> {
+    pairs.sort_unstable();
+    pairs.dedup();
+    Table::from_pairs(rows, &pairs)
+}
+
+/// The signs of `left − right` for which a comparison holds.
+pub(crate) fn signs_of(comparison: Comparison) -> u8 {
+    let (minus, zero, plus) = (sign_bit(Sign::Negative), sign_bit(Sign::Zero), sign_bit(Sign::Positive));
+    match comparison {
+        Comparison::Less => minus,
+        Comparison::LessEqual => minus | zero,
+        Comparison::Greater => plus,
+        Comparison::GreaterEqual => plus | zero,
+        Comparison::Equal => zero,
+        Comparison::NotEqual => minus | plus,
+    }
+}
