@@ -1,24 +1,32 @@
 //! Sophy beside hand-written loops of the same algorithm, in one process, alternating.
 //!
-//! `cargo xtask bench` builds and runs this; the table goes to the terminal and to `results/latest.{md,json}`.
+//! `cargo xtask bench` builds and runs this; the table goes to the terminal and to `results/latest.{md,json}`. With
+//! the word `language` it measures the language alone, and writes no file.
 //! Machines are noisy: read the ratios, which compare neighbours in time, and never a speed without the error
 //! that stands beside it.
 
 mod build;
 mod floor;
 mod hopper;
+mod language;
 mod measure;
 mod memory;
 mod oscillator;
 mod report;
 
 fn main() -> std::io::Result<()> {
+    if std::env::args().nth(1).as_deref() == Some("language") {
+        print!("{}", report::told_markdown(&language::bench()));
+        return Ok(());
+    }
     let results = [hopper::bench(), oscillator::bench()].concat();
     let built = build::bench();
-    let markdown = report::markdown(&results) + "\n" + &report::built_markdown(&built);
+    let told = language::bench();
+    let tables = [report::markdown(&results), report::built_markdown(&built), report::told_markdown(&told)];
+    let markdown = tables.join("\n");
     print!("{markdown}");
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
     std::fs::create_dir_all(&folder)?;
     std::fs::write(folder.join("latest.md"), markdown)?;
-    std::fs::write(folder.join("latest.json"), report::json(&results, &built))
+    std::fs::write(folder.join("latest.json"), report::json(&results, &built, &told))
 }

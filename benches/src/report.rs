@@ -1,4 +1,5 @@
 use crate::build::Built;
+use crate::language::Told;
 use crate::measure::Measured;
 use serde_json::json;
 
@@ -49,8 +50,45 @@ pub fn built_markdown(built: &[Built]) -> String {
     text
 }
 
+/// From text to started run, for people.
+pub fn told_markdown(told: &[Told]) -> String {
+    let mut text = String::from(
+        "| language | lines | states | lines per s | in all, s | ns per state or line | of which | peak, B per state or line |\n\
+         | --- | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
+    );
+    for t in told {
+        let each = |ms: f64| 1e6 * ms / t.units() as f64;
+        let stages: Vec<String> =
+            t.stages.iter().map(|(stage, ms)| format!("{stage} {:.0}", each(*ms))).collect();
+        text += &format!(
+            "| {} | {} | {} | {:.0} | {:.3} | {:.0} | {} | {} |\n",
+            t.text,
+            t.lines,
+            t.states,
+            1e3 * t.lines as f64 / t.total_ms(),
+            1e-3 * t.total_ms(),
+            each(t.total_ms()),
+            stages.join(", "),
+            t.peak / t.units(),
+        );
+    }
+    text
+}
+
 /// The same for machines.
-pub fn json(results: &[Measured], built: &[Built]) -> String {
+pub fn json(results: &[Measured], built: &[Built], told: &[Told]) -> String {
+    let told = told.iter().map(|t| {
+        let stages: serde_json::Map<_, _> =
+            t.stages.iter().map(|(stage, ms)| ((*stage).to_owned(), json!(ms))).collect();
+        json!({
+            "bench": "language",
+            "text": t.text,
+            "lines": t.lines,
+            "states": t.states,
+            "stages_ms": stages,
+            "peak_bytes": t.peak,
+        })
+    });
     let built = built.iter().map(|b| {
         json!({
             "bench": "build",
@@ -81,6 +119,7 @@ pub fn json(results: &[Measured], built: &[Built]) -> String {
             })
         })
         .chain(built)
+        .chain(told)
         .collect();
     format!("{:#}\n", serde_json::Value::from(rows))
 }

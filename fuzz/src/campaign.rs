@@ -71,8 +71,12 @@ pub(crate) fn run(target: Target, campaign: &Campaign) -> io::Result<(Tally, Vec
     Ok((tally, finds))
 }
 
-/// Whether two causes differ in numbers only.
+/// Whether two causes differ in numbers only; panics are alike in the same place.
 fn alike(one: &str, other: &str) -> bool {
+    let place = |cause: &str| cause.split_once(": ").map(|(place, _)| place.to_owned());
+    if one.starts_with("panic at ") {
+        return place(one) == place(other);
+    }
     let words = |cause: &str| cause.replace(|c: char| c.is_ascii_digit() || c == '.', "");
     words(one) == words(other)
 }

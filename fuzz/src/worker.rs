@@ -95,7 +95,9 @@ fn guarded(job: impl FnOnce(&AtomicU64) -> bool + Send + 'static) -> io::Result<
     static POSITION: AtomicU64 = AtomicU64::new(0);
     std::panic::set_hook(Box::new(|panic| {
         if let Ok(mut message) = PANIC.lock() {
-            *message = panic.to_string().replace('\n', " ");
+            let place = panic.location().map(ToString::to_string).unwrap_or_default();
+            let said: String = panic.payload_as_str().unwrap_or("").chars().take(120).collect();
+            *message = format!("{place}: {}", said.replace('\n', " "));
         }
     }));
     let worker = thread::Builder::new().stack_size(STACK).spawn(|| job(&POSITION))?;
@@ -119,7 +121,7 @@ fn guarded(job: impl FnOnce(&AtomicU64) -> bool + Send + 'static) -> io::Result<
 fn survives(target: Target, input: &[u8]) -> Result<Cost, String> {
     catch_unwind(AssertUnwindSafe(|| target.check(input))).unwrap_or_else(|_| {
         let message = PANIC.lock().map(|message| message.clone()).unwrap_or_default();
-        Err(format!("panic: {message}"))
+        Err(format!("panic at {message}"))
     })
 }
 

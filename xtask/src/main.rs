@@ -1,4 +1,5 @@
-//! Housekeeping: `cargo xtask ci` runs every check, `cargo xtask bench` measures.
+//! Housekeeping: `cargo xtask ci` runs every check, `cargo xtask bench` measures, `cargo xtask fuzz`
+//! throws broken models at the readers.
 //!
 //! The rules of the house are ordinary tests of this package: `arrows` compares the manifests with
 //! ARCHITECTURE.md, `tidy` reads the sources.
@@ -12,12 +13,17 @@ mod tidy;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let command = std::env::args().nth(1);
+    let mut arguments = std::env::args().skip(1);
+    let command = arguments.next();
+    let further: Vec<String> = arguments.collect();
     let done = match command.as_deref() {
         Some("ci") => steps::ci(),
-        Some("bench") => steps::bench(),
-        _ => Err("cargo xtask ci      formatting, lints and all tests\n\
-                  cargo xtask bench   speed beside hand-written loops, in release mode"
+        Some("bench") => steps::bench(&further),
+        Some("fuzz") => steps::fuzz(&further),
+        _ => Err("cargo xtask ci      formatting, lints, all tests and a minute of fuzzing\n\
+                  cargo xtask bench   speed beside hand-written loops, in release mode; `language` alone\n\
+                  cargo xtask fuzz    broken models thrown at the readers, in release mode: [--inputs N]\n\
+                  \x20                   [--seconds S] [--seed K] [hsml|xml|hsml-model|xml-model]"
             .to_owned()),
     };
     match done {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// Formatting, lints and all tests; ends with the time of each part.
+/// Formatting, lints, all tests and a minute of fuzzing; ends with the time of each part.
 pub(crate) fn ci() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     cargo(&["fmt", "--manifest-path", "benches/Cargo.toml", "--check"])?;
@@ -15,14 +15,25 @@ pub(crate) fn ci() -> Result<(), String> {
     let lints = lints + cargo(&benches)?;
     let build = cargo(&["test", "--workspace", "--no-run"])?;
     let tests = cargo(&["test", "--workspace"])?;
-    let [build, lints, tests] = [build, lints, tests].map(|part| part.as_secs());
-    say(&format!("all checks passed: clippy {lints} s, build {build} s, tests {tests} s"));
+    let fuzz = cargo(&["run", "--package", "sophy-fuzz", "--", "--seconds", "60"])?;
+    let [build, lints, tests, fuzz] = [build, lints, tests, fuzz].map(|part| part.as_secs());
+    say(&format!("all checks passed: clippy {lints} s, build {build} s, tests {tests} s, fuzzing {fuzz} s"));
     Ok(())
 }
 
 /// Builds the benches in release mode and runs them.
-pub(crate) fn bench() -> Result<(), String> {
-    cargo(&["run", "--release", "--manifest-path", "benches/Cargo.toml"]).map(drop)
+pub(crate) fn bench(arguments: &[String]) -> Result<(), String> {
+    run(&["run", "--release", "--manifest-path", "benches/Cargo.toml", "--"], arguments)
+}
+
+/// Builds the fuzzer in release mode and runs it.
+pub(crate) fn fuzz(arguments: &[String]) -> Result<(), String> {
+    run(&["run", "--release", "--package", "sophy-fuzz", "--"], arguments)
+}
+
+fn run(program: &[&str], arguments: &[String]) -> Result<(), String> {
+    let all: Vec<&str> = program.iter().copied().chain(arguments.iter().map(String::as_str)).collect();
+    cargo(&all).map(drop)
 }
 
 /// Tells the person at the terminal.

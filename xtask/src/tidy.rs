@@ -162,7 +162,7 @@ fn without_comment(line: &str) -> &str {
 }
 
 fn all_rust_files() -> Vec<PathBuf> {
-    let folders = ["crates", "xtask/src", "benches/src"];
+    let folders = ["crates", "fuzz/src", "xtask/src", "benches/src"];
     folders.iter().flat_map(|folder| rust_files(&root().join(folder))).collect()
 }
 

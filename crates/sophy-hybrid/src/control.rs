@@ -4,7 +4,7 @@ use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
     AutomatonIndex, Changes, Engine, Equations, EventIndex, Formula, Guard, Journal, LocationIndex, Logic,
-    Record, TransitionIndex, TriggerCode, WatchIndex,
+    Record, StateIndex, TransitionIndex, TriggerCode, WatchIndex,
 };
 use std::collections::VecDeque;
 
@@ -148,6 +148,9 @@ impl Control {
             self.changes.clear();
             if !self.chosen.is_empty() {
                 self.collect_changes(engine, e, logic, t);
+                if self.chosen.len() > 1 {
+                    self.refuse_assigned_twice(logic, t)?;
+                }
                 engine.change(e, t, &self.changes, journal)?;
                 self.put_back(engine, e, logic, t, journal)?;
             }
@@ -316,6 +319,30 @@ impl Control {
                 }
             }
         }
+    }
+}
+
+impl Control {
+    /// All right-hand sides of a micro-step read the values before it, so what a state becomes must not depend on
+    /// which of two assignments is looked at first. Equal values are no contradiction.
+    fn refuse_assigned_twice(&self, logic: &Logic, time: f64) -> Result<(), HybridError> {
+        let mut assigned: Vec<(StateIndex, usize)> =
+            self.changes.states.iter().enumerate().map(|(k, (state, _))| (*state, k)).collect();
+        assigned.sort_unstable();
+        for pair in assigned.windows(2) {
+            let [(state, first), (again, second)] = [pair[0], pair[1]];
+            let values = [self.changes.states[first].1, self.changes.states[second].1];
+            if state == again && values[0].to_bits() != values[1].to_bits() {
+                let assigns = |t: &TransitionIndex| {
+                    logic.transitions[t.position()].resets.iter().any(|(reset, _)| *reset == state)
+                };
+                let mut who = self.chosen.iter().copied().filter(assigns);
+                if let (Some(first), Some(second)) = (who.next(), who.next()) {
+                    return Err(HybridError::AssignedTwice { time, state, transitions: [first, second], values });
+                }
+            }
+        }
+        Ok(())
     }
 }
 

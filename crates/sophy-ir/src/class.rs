@@ -64,6 +64,9 @@ pub struct Variable {
     pub choices: Vec<usize>,
     /// Whether it is to be recorded and displayed although it is no output.
     pub viewed: bool,
+    /// Whether its value decided something of the structure of the class (an extent, an index, the bounds of a
+    /// loop), so that an experiment cannot change it.
+    pub structural: bool,
     /// Unit as written, for labels.
     pub unit: Option<String>,
     /// What it means, in the author's words.

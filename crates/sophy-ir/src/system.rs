@@ -162,6 +162,8 @@ pub struct Parameter {
     pub unit: Option<String>,
     /// Whether it is part of the interface.
     pub knob: bool,
+    /// Whether the structure was built from its value, which therefore is fixed.
+    pub structural: bool,
     /// Its declaration.
     pub origin: Origin,
     /// Where it is declared.

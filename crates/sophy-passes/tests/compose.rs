@@ -26,6 +26,7 @@ fn variable(name: &str, kind: VariableKind) -> Variable {
         range: None,
         choices: Vec::new(),
         viewed: false,
+        structural: false,
         unit: None,
         documentation: String::new(),
         span: None,

@@ -72,6 +72,9 @@ impl Failure {
         let reporter = Reporter { system, engine };
         match error {
             HybridError::Engine(fault) => reporter.fault(*fault),
+            HybridError::AssignedTwice { time, state, transitions, values } => {
+                reporter.assigned_twice(*time, *state, transitions, values)
+            }
             HybridError::Livelock { time, steps, cycle, exact } => {
                 reporter.livelock(*time, *steps, cycle, *exact)
             }
@@ -161,6 +164,27 @@ impl Reporter<'_> {
         failure.span = self.rate_span(state);
         failure.notes.push(self.equation(state));
         failure.notes.push(self.values(self.rate_sources(state), time));
+        failure
+    }
+
+    fn assigned_twice(
+        &self,
+        time: f64,
+        state: StateIndex,
+        transitions: &[TransitionIndex; 2],
+        values: &[f64; 2],
+    ) -> Failure {
+        let name = &self.system.states[state.position()].name;
+        let mut failure =
+            self.failure("SR0010", time, format!("`{name}` is assigned twice at t = {time} s"));
+        failure.span = self.system.transitions[transitions[0].position()].span;
+        for (transition, value) in transitions.iter().zip(values) {
+            failure.notes.push(format!("{} gives it {value}", self.transition(*transition)));
+        }
+        failure.helps.push(
+            "give one of the two a `priority`: a smaller number goes first, the other one a micro-step later"
+                .to_owned(),
+        );
         failure
     }
 

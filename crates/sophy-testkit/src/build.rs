@@ -161,6 +161,7 @@ impl Build {
             range: None,
             choices: Vec::new(),
             viewed: false,
+            structural: false,
             unit: None,
             documentation: String::new(),
             span: None,

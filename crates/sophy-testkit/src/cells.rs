@@ -42,6 +42,7 @@ pub fn ring(count: usize, events: bool) -> System {
             value,
             unit: None,
             knob: false,
+            structural: false,
             origin: ORIGIN,
             span: None,
         });

@@ -46,6 +46,6 @@ mod tests {
         let page = page("hs0101").expect("a page");
         assert_eq!((page.code, page.title), ("HS0101", "an expression uses a name that is not declared"));
         assert!(page.text.contains("```hsml"));
-        assert_eq!(super::page("HS9999"), None);
+        assert_eq!(super::page("HS99"), None);
     }
 }

@@ -7,7 +7,7 @@ use sophy_analysis::algebraic_loop;
 use sophy_diagnostics::{Diagnostic, Diagnostics};
 use sophy_files::{EventLog, FileError, PlotOptions, open_sink, plot};
 use sophy_hybrid::Accumulation;
-use sophy_ir::{Model, System};
+use sophy_ir::{Model, Role, System};
 use sophy_passes::{FlattenError, PassError};
 use sophy_record::{EventRecord, Metadata, Schema, Sink, SinkError, Table};
 use sophy_run::{ExperimentError, Observer, Outcome, Progress, Recorder, Report, Run};
@@ -237,7 +237,7 @@ fn is_picture(path: &Path) -> bool {
 fn locations(run: &Run) -> Vec<(String, String)> {
     let automata = run.system().automata.iter().enumerate();
     automata
-        .filter(|(_, automaton)| automaton.locations.len() > 1)
+        .filter(|(_, automaton)| automaton.role == Role::Component && automaton.locations.len() > 1)
         .map(|(position, automaton)| {
             let location = run.location(sophy_field::AutomatonIndex::new(position));
             (automaton.name.clone(), automaton.locations[location.position()].name.clone())

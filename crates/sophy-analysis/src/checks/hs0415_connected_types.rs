@@ -38,3 +38,9 @@ pub(crate) fn event_and_value(from: Span, to: Span) -> Diagnostic {
         .label(to, "to this")
         .help("an event carries no value; a value that changes needs a port of type `real`, `integer`, `boolean` or `string`")
 }
+
+pub(crate) fn event_and_label(from: Span, to: Span) -> Diagnostic {
+    Diagnostic::error(CODE, from, "an event and the label of synchronised transitions cannot be connected")
+        .label(to, "to this")
+        .help("join `sync` labels with one another: their transitions are taken together; events are sent and received")
+}

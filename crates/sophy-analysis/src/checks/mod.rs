@@ -52,6 +52,7 @@ pub(crate) mod hs0143_local_without_equation;
 pub(crate) mod hs0144_flag_without_event;
 pub(crate) mod hs0145_constrained;
 pub(crate) mod hs0146_assigned_by_two;
+pub(crate) mod hs0147_read_before_assigned;
 pub(crate) mod hs0201_unknown_function;
 pub(crate) mod hs0202_wrong_number_of_arguments;
 pub(crate) mod hs0203_number_as_condition;
@@ -142,6 +143,7 @@ pub const CODES: &[(Code, &str)] = &[
     (hs0144_flag_without_event::CODE, "nothing listens to a flag"),
     (hs0145_constrained::CODE, "more constraints than unknowns"),
     (hs0146_assigned_by_two::CODE, "a variable may be assigned twice at one instant"),
+    (hs0147_read_before_assigned::CODE, "a local is read before it is assigned"),
     (hs0201_unknown_function::CODE, "something is called that is not a function"),
     (hs0202_wrong_number_of_arguments::CODE, "a function is called with the wrong number of arguments"),
     (hs0203_number_as_condition::CODE, "a number stands where a condition is needed"),

@@ -30,6 +30,17 @@ pub(crate) struct BuiltLocation<'a> {
     pub(crate) transitions: Vec<BuiltTransition<'a>>,
 }
 
+impl BuiltLocation<'_> {
+    /// All that is read while the location holds.
+    pub(crate) fn nodes(&self) -> Vec<NodeId> {
+        let defined = self.defined.rates.values().chain(self.defined.values.values());
+        let constraints = self.constraints.iter().flat_map(|c| [c.left, c.right]);
+        let guards = self.transitions.iter().filter_map(|transition| transition.guard);
+        let equations = defined.filter_map(|definition| definition.right);
+        equations.chain(constraints).chain(guards).chain(self.invariant).collect()
+    }
+}
+
 /// A transition as far as it is free of mistakes.
 pub(crate) struct BuiltTransition<'a> {
     pub(crate) declaration: &'a TransitionDeclaration,
@@ -405,7 +416,9 @@ impl<'a> Builder<'_, 'a> {
                     Leaf::Variable(id) => position.get(&id).copied(),
                     _ => None,
                 };
-                leaves.into_iter().filter_map(place).collect()
+                // What keeps its own declared value in a branch needs nothing else.
+                let own = position.get(&assignment.variable).copied();
+                leaves.into_iter().filter_map(place).filter(|&other| Some(other) != own).collect()
             })
             .collect();
         let sorted = dependency_order(&needs);

@@ -1,4 +1,5 @@
 use super::checks::Strays;
+use super::statements::{assigned_names, equation_names};
 use crate::checks::hs0135_index;
 use crate::declarations::{ComponentDeclaration, ExpressionText, Spanned};
 use crate::findings::Findings;
@@ -36,6 +37,10 @@ pub(crate) struct Builder<'b, 'a> {
     /// Values of parameters, where they are known.
     pub(crate) values: HashMap<VariableId, f64>,
     pub(crate) strays: Strays,
+    /// Names that some `:=` section assigns.
+    pub(crate) assigned: BTreeSet<&'a str>,
+    /// Names that some equation defines.
+    pub(crate) with_equation: BTreeSet<&'a str>,
     /// Names that were suggested for misspelt ones, and so count as used.
     pub(crate) suggested: BTreeSet<String>,
     /// What equations of a discrete-time component define.
@@ -61,6 +66,8 @@ impl<'b, 'a> Builder<'b, 'a> {
             structural: BTreeSet::new(),
             values: HashMap::new(),
             strays: Strays::default(),
+            assigned: assigned_names(declaration).into_keys().collect(),
+            with_equation: equation_names(declaration).into_keys().collect(),
             suggested: BTreeSet::new(),
             defined_values: BTreeSet::new(),
         }

@@ -1,23 +1,25 @@
 use super::automaton::BuiltLocation;
 use super::builder::{Builder, Shared};
 use super::matching::match_constraints;
-use super::statements::assigned_names;
+use super::statements::{assigned_names, equation_names};
 use crate::checks::{
     hs0101_unknown_name, hs0102_equation_for_undeclared_state, hs0103_reset_of_undeclared_state,
-    hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice,
+    hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice, hs0108_defined_twice,
     hs0109_output_without_map, hs0110_state_without_equation, hs0112_location_declared_twice,
     hs0113_transition_declared_twice, hs0114_unknown_destination, hs0115_unknown_initial_location,
     hs0116_unreachable_location, hs0117_hidden_name, hs0118_unused, hs0119_no_location,
-    hs0127_declaration_for_another_kind, hs0143_local_without_equation, hs0144_flag_without_event,
+    hs0127_declaration_for_another_kind, hs0143_local_without_equation, hs0144_flag_without_event, hs0146_assigned_by_two,
     hs0201_unknown_function, hs0206_natural_logarithm, hs0401_constant_guard, hs0402_taken_on_entry,
     hs0403_round_without_time,
 };
 use crate::declarations::{
-    ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration,
+    ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration, VariableRole,
 };
 use crate::lower::{SymbolKind, SymbolValue};
 use sophy_diagnostics::{Diagnostics, Span};
-use sophy_ir::{Actions, EventSection, NodeId, Rule, VariableId, VariableKind};
+use sophy_ir::{
+    Actions, Binary, EventSection, Leaf, Node, NodeId, Rule, Special, VariableId, VariableKind,
+};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Something that is defined or assigned although it cannot be.
@@ -35,6 +37,13 @@ pub(crate) struct Strays {
     pub(crate) rates: Vec<Stray>,
     pub(crate) values: Vec<Stray>,
     pub(crate) resets: Vec<Stray>,
+}
+
+/// Where a flag is zero: its quantity is at this level.
+#[derive(Clone, Copy)]
+struct Surface {
+    quantity: NodeId,
+    level: f64,
 }
 
 impl<'a> Shared<'a> {
@@ -105,7 +114,7 @@ impl Builder<'_, '_> {
         let output = equation(&d.equations.output);
         let constraint = d.equations.constraints.first().map(|c| c.left.span);
         let update = (!d.update.is_empty()).then_some(place);
-        let wrong: [(&str, &str, bool, Option<Span>); 9] = [
+        let wrong: [(&str, &str, bool, Option<Span>); 10] = [
             ("location", "a CTC", d.kind != Ctc, first_location),
             ("event", "a CTC", d.kind != Ctc, first_event),
             ("rules", "a CTC or LBC", !matches!(d.kind, Ctc | Lbc), first_rule),
@@ -115,10 +124,19 @@ impl Builder<'_, '_> {
             ("constraints", "a CTC", composite || d.kind == Lbc, constraint),
             ("output", "a CTC, DTC or LBC", composite, output),
             ("update", "a DTC", d.kind != Dtc, update),
+            ("initial", "a CTC, DTC or LBC", composite, (!d.initial.is_empty()).then_some(place)),
         ];
         for (section, suits, is_wrong, span) in wrong {
             if let (true, Some(span)) = (is_wrong, span) {
                 self.report(hs0127_declaration_for_another_kind::section(d.kind, section, suits, span));
+            }
+        }
+        let equations = equation_names(d);
+        for (name, at) in assigned_names(d) {
+            let is_state = d.variables.iter().any(|v| v.name.value == name && v.role == VariableRole::State);
+            if let (Some(&first), false) = (equations.get(name), is_state || d.dialect == Dialect::Xml) {
+                let what = format!("`{name}`, by an equation and by an assignment,");
+                self.report(hs0108_defined_twice::diagnostic(&what, first, at));
             }
         }
         if let (Some(clock), true) = (&d.clock, d.kind != Dtc) {
@@ -169,6 +187,25 @@ impl Builder<'_, '_> {
         }
     }
 
+    /// The level of a flag that is a quantity minus a number.
+    fn surface(&self, locations: &[BuiltLocation<'_>], flag: VariableId) -> Option<Surface> {
+        let node = locations.first()?.defined.values.get(&flag)?.right?;
+        let (quantity, level) = match self.graph.node(node) {
+            Node::Binary(Binary::Subtract, a, b) => match (self.known_value(a), self.known_value(b)) {
+                (None, Some(level)) => (a, level),
+                (Some(level), None) => (b, level),
+                _ => return None,
+            },
+            Node::Binary(Binary::Add, a, b) => match (self.known_value(a), self.known_value(b)) {
+                (None, Some(level)) => (a, -level),
+                (Some(level), None) => (b, -level),
+                _ => return None,
+            },
+            _ => (node, 0.0),
+        };
+        Some(Surface { quantity, level })
+    }
+
     /// Complains about actions of equal priority that can meet at an instant and assign one variable.
     pub(crate) fn check_meetings(&mut self, locations: &[BuiltLocation<'_>], events: &[EventSection], rules: &[Rule]) {
         /// What acts, with its priority; what has one number never acts together.
@@ -178,6 +215,8 @@ impl Builder<'_, '_> {
             actors.push((0, transition.priority, &transition.actions, transition.declaration.name.span));
         }
         let mut group = 0;
+        let surfaces: Vec<Option<Surface>> =
+            events.iter().map(|section| self.surface(locations, section.flag)).collect();
         for section in events {
             group += 1;
             for actions in section.rising.iter().chain(&section.falling) {
@@ -186,6 +225,14 @@ impl Builder<'_, '_> {
             }
         }
         for rule in rules.iter().filter(|rule| rule.delay.is_none()) {
+            // Events are received one by one, after all conditions have been answered.
+            let on_event = self.graph.dependencies([rule.condition]).into_iter().any(|leaf| match leaf {
+                Leaf::Special(k) => matches!(self.specials.get(k as usize), Some(Special::Event(_))),
+                _ => false,
+            });
+            if on_event {
+                continue;
+            }
             group += 1;
             actors.push((group, rule.priority, &rule.actions, rule.span.unwrap_or(self.declaration.name.span)));
         }
@@ -196,6 +243,13 @@ impl Builder<'_, '_> {
                 let key = (assignment.variable, priority);
                 match first.get(&key) {
                     Some(&(other, right, other_span)) if other != group => {
+                        if let [Some(Some(a)), Some(Some(b))] =
+                            [other, group].map(|g| g.checked_sub(1).map(|g| surfaces.get(g).copied().flatten()))
+                            && a.quantity == b.quantity
+                            && a.level != b.level
+                        {
+                            continue; // two levels of one quantity are not reached together
+                        }
                         let same_constant =
                             right == assignment.right && self.graph.as_number(right).is_some();
                         if !same_constant && other_span != span {
@@ -331,7 +385,7 @@ impl Builder<'_, '_> {
     fn check_values(&mut self, locations: &[BuiltLocation<'_>], meant: &BTreeSet<String>) {
         let own = self.declared_in();
         let assigned: BTreeSet<String> =
-            assigned_names(self.declaration).into_iter().map(str::to_owned).collect();
+            assigned_names(self.declaration).into_keys().map(str::to_owned).collect();
         let xml = self.declaration.dialect == Dialect::Xml;
         let mut lacking_maps: Vec<(VariableId, Vec<(String, Span)>)> = Vec::new();
         let mut found = Vec::new();
@@ -344,6 +398,7 @@ impl Builder<'_, '_> {
                 (Some(home), Some(written)) => home.name.span == written.name.span,
                 _ => true,
             };
+            let read = self.graph.dependencies(location.nodes());
             let lacking: Vec<VariableId> = ids
                 .iter()
                 .copied()
@@ -353,7 +408,7 @@ impl Builder<'_, '_> {
                     !location.defined.values.contains_key(&id)
                         && !meant.contains(base)
                         && lives(base)
-                        && !(is_local && assigned.contains(base))
+                        && !(is_local && assigned.contains(base) && !read.contains(&sophy_ir::Leaf::Variable(id)))
                 })
                 .collect();
             let matched = match_constraints(&self.graph, &location.defined, &location.constraints, &lacking);
@@ -410,7 +465,7 @@ impl Builder<'_, '_> {
         let mut meant = BTreeSet::new();
         self.check_strays(&[], &mut meant);
         let assigned: BTreeSet<String> =
-            assigned_names(self.declaration).into_iter().map(str::to_owned).collect();
+            assigned_names(self.declaration).into_keys().map(str::to_owned).collect();
         let defined: BTreeSet<VariableId> = self.defined_values.clone();
         let mut seen = BTreeSet::new();
         for id in self.ids_of(|kind| matches!(kind, VariableKind::Local | VariableKind::Output)) {

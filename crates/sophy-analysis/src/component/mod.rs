@@ -89,9 +89,14 @@ impl Builder<'_, '_> {
     }
 
     /// The class, if nothing was reported since there were `errors` errors.
-    pub(crate) fn finish(self, body: Option<Body>, interface: Interface, errors: usize) -> Built {
+    pub(crate) fn finish(mut self, body: Option<Body>, interface: Interface, errors: usize) -> Built {
         let declaration = self.declaration;
         let structural = self.structural_closure();
+        for variable in &mut self.variables {
+            let base = variable.name.split('[').next().unwrap_or(&variable.name);
+            variable.structural =
+                matches!(variable.kind, VariableKind::Parameter { .. }) && structural.contains(base);
+        }
         let sound = self.shared.findings.error_count() == errors && !declaration.name.value.is_empty();
         let class = body.filter(|_| sound).map(|body| Class {
             name: declaration.name.value.clone(),

@@ -178,6 +178,7 @@ impl<'a> Builder<'_, 'a> {
                 range: range.bounds,
                 choices: range.choices.clone(),
                 viewed: false,
+                structural: false,
                 unit: self.unit_label(&name.value, unit),
                 documentation: documentation.clone(),
                 span: Some(name.span),

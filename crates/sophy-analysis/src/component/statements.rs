@@ -2,12 +2,14 @@ use super::builder::Builder;
 use super::checks::Stray;
 use super::equations::shape_of_part;
 use crate::checks::{
-    hs0108_defined_twice, hs0132_unknown_event, hs0133_not_assignable, hs0134_hold_without_flag,
+    hs0108_defined_twice, hs0126_out_of_range, hs0132_unknown_event, hs0133_not_assignable, hs0134_hold_without_flag, hs0147_read_before_assigned,
 };
-use crate::declarations::{ComponentDeclaration, Dialect, ExpressionText, Spanned, Statement, Target};
+use crate::declarations::{
+    ComponentDeclaration, Dialect, EquationItem, ExpressionText, Spanned, Statement, Target,
+};
 use crate::lower::{Elements, Place, SymbolKind, SymbolValue, Typed};
 use sophy_diagnostics::Span;
-use sophy_ir::{Actions, Assignment, Emission, Leaf, NodeId, VariableId};
+use sophy_ir::{Actions, Assignment, Emission, Leaf, NodeId, VariableId, VariableKind};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Where statements stand, and what they may do there.
@@ -66,7 +68,12 @@ impl<'a> Builder<'_, 'a> {
                 Statement::Hold(flag) => self.hold(flag, doing),
                 Statement::If { branches, otherwise } => self.choose(branches, otherwise, new, doing),
                 Statement::For(turns) => {
-                    self.each_turn(turns, |b| b.statements(&turns.items, new, doing));
+                    // What a turn assigns to a local, the next one reads, and so does what follows the loop.
+                    self.each_turn(turns, |b| {
+                        b.bind_locals(new);
+                        b.statements(&turns.items, new, doing);
+                    });
+                    self.bind_locals(new);
                 }
             }
         }
@@ -111,9 +118,21 @@ impl<'a> Builder<'_, 'a> {
         expected.shape = shape_of_part(symbol.shape, target.indices.len());
         let value = self.at(reads).value_for(right, &expected);
         let nodes = value.as_ref().map(|value| value.elements.as_slice().to_vec());
+        if let Some(nodes) = &nodes
+            && !matches!(found, Some((SymbolKind::Local, ..)))
+        {
+            self.check_assigned_before(nodes, right.span);
+            self.check_assigned_range(&ids, nodes, right.span);
+        }
         let is_local = matches!(found, Some((SymbolKind::Local, ..)));
         if is_local {
             self.assign_local(target, &ids, symbol.first, value, new);
+            if self.is_held_local(&name.value) {
+                for (k, id) in ids.into_iter().enumerate() {
+                    let node = nodes.as_ref().and_then(|nodes| nodes.get(k).copied());
+                    new.values.insert(id, (node, right.span, name_span(target)));
+                }
+            }
             return;
         }
         for (k, id) in ids.into_iter().enumerate() {
@@ -128,6 +147,19 @@ impl<'a> Builder<'_, 'a> {
                 continue;
             }
             new.values.insert(id, (node, right.span, name_span(target)));
+        }
+    }
+
+    /// Complains about a number outside the range of the variable that it is assigned to.
+    fn check_assigned_range(&mut self, ids: &[VariableId], nodes: &[NodeId], at: Span) {
+        for (&id, &node) in ids.iter().zip(nodes) {
+            let variable = &self.variables[id.0 as usize];
+            let (Some([low, high]), Some(value)) = (variable.range, self.known_value(node)) else { continue };
+            let (Some(low), Some(high)) = (self.known_value(low), self.known_value(high)) else { continue };
+            if !(low..=high).contains(&value) {
+                let (name, declared) = (variable.name.clone(), variable.span.unwrap_or(at));
+                self.report(hs0126_out_of_range::diagnostic(&name, value, low, high, at, declared));
+            }
         }
     }
 
@@ -203,7 +235,11 @@ impl<'a> Builder<'_, 'a> {
         let mut results: Vec<(Option<NodeId>, New)> = Vec::new();
         let mut remaining = outer;
         for (condition, statements) in branches {
+            let at = condition.span;
             let condition = self.at(doing.setting.reads).condition(condition);
+            if let Some(condition) = condition {
+                self.check_assigned_before(&[condition], at);
+            }
             doing.when = self.both(remaining, condition);
             let result = self.branch(statements, &before, doing);
             results.push((condition, result));
@@ -217,13 +253,29 @@ impl<'a> Builder<'_, 'a> {
         for (condition, result) in results.into_iter().rev() {
             merged = self.merge_branches(condition, result, merged);
         }
-        for (name, value) in &merged.locals {
-            let span = self.symbols.get(name).map(|symbol| symbol.span);
-            if let Some(span) = span {
+        self.bind_locals(&merged);
+        *new = merged;
+    }
+
+    fn bind_locals(&mut self, new: &New) {
+        for (name, value) in &new.locals {
+            if let Some(span) = self.symbols.declared(name).map(|symbol| symbol.span) {
                 self.symbols.bind(name, SymbolKind::Local, span, value.clone());
             }
         }
-        *new = merged;
+    }
+
+    /// Complains about a local that has no equation and is read before the section assigns it.
+    fn check_assigned_before(&mut self, nodes: &[NodeId], at: Span) {
+        for leaf in self.graph.dependencies(nodes.iter().copied()) {
+            let Leaf::Variable(id) = leaf else { continue };
+            let Some(variable) = self.variables.get(id.0 as usize) else { continue };
+            let base = variable.name.split('[').next().unwrap_or(&variable.name);
+            if variable.kind == VariableKind::Local && !self.with_equation.contains(base) {
+                let (name, declared) = (variable.name.clone(), variable.span);
+                self.report(hs0147_read_before_assigned::diagnostic(&name, at, declared));
+            }
+        }
     }
 
     fn both(&mut self, a: Option<NodeId>, b: Option<NodeId>) -> Option<NodeId> {
@@ -271,9 +323,9 @@ fn name_span(target: &Target) -> Span {
     target.name.span
 }
 
-/// Names that some `:=` section of a component assigns.
-pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeSet<&str> {
-    let mut names = BTreeSet::new();
+/// Names that some `:=` section of a component assigns, with a place where it does.
+pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeMap<&str, Span> {
+    let mut names = BTreeMap::new();
     let mut pending: Vec<&Statement> = Vec::new();
     let d = declaration;
     pending.extend(d.update.iter());
@@ -286,7 +338,7 @@ pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeSet<&st
     while let Some(statement) = pending.pop() {
         match statement {
             Statement::Assign { target, .. } => {
-                names.insert(target.name.value.as_str());
+                names.entry(target.name.value.as_str()).or_insert(target.name.span);
             }
             Statement::If { branches, otherwise } => {
                 pending.extend(branches.iter().flat_map(|(_, statements)| statements));
@@ -294,6 +346,27 @@ pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeSet<&st
             }
             Statement::For(turns) => pending.extend(&turns.items),
             Statement::Emit(_) | Statement::Hold(_) => {}
+        }
+    }
+    names
+}
+
+/// Names that some equation `name = …` of a component defines, with a place where it does.
+pub(crate) fn equation_names(declaration: &ComponentDeclaration) -> BTreeMap<&str, Span> {
+    let mut names = BTreeMap::new();
+    let sections = std::iter::once(&declaration.equations).chain(declaration.locations.iter().map(|l| &l.equations));
+    let mut pending: Vec<&EquationItem> = sections.flat_map(|e| e.dynamics.iter().chain(&e.output)).collect();
+    while let Some(item) = pending.pop() {
+        match item {
+            EquationItem::Equation(equation) if !equation.derivative => {
+                names.entry(equation.target.name.value.as_str()).or_insert(equation.target.name.span);
+            }
+            EquationItem::Equation(_) => {}
+            EquationItem::If { branches, otherwise, .. } => {
+                pending.extend(branches.iter().flat_map(|(_, items)| items));
+                pending.extend(otherwise.iter().flatten());
+            }
+            EquationItem::For(turns) => pending.extend(&turns.items),
         }
     }
     names

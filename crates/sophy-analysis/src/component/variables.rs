@@ -78,7 +78,7 @@ impl<'a> Builder<'_, 'a> {
     pub(crate) fn declare_variables(&mut self) -> Interface {
         let declaration = self.declaration;
         let mut interface = Interface::default();
-        let assigned: BTreeSet<&str> = assigned_names(declaration);
+        let assigned: BTreeSet<&str> = assigned_names(declaration).into_keys().collect();
         let mut of_body: BTreeMap<&str, &VariableDeclaration> = BTreeMap::new();
         let everywhere = declaration.variables.iter();
         for variable in everywhere.chain(declaration.locations.iter().flat_map(|l| &l.variables)) {
@@ -183,11 +183,18 @@ impl<'a> Builder<'_, 'a> {
         };
         let own_kind = match variable.role {
             VariableRole::State => VariableKind::State(None),
+            // What an update assigns, the output equations read until the next one.
+            VariableRole::Local if self.is_held_local(&variable.name.value) => VariableKind::Mode(None),
             VariableRole::Local => VariableKind::Local,
             VariableRole::Mode => VariableKind::Mode(None),
             VariableRole::Flag => VariableKind::Flag,
         };
         self.enter(declared, own_kind);
+    }
+
+    /// Whether a local of a discrete-time component keeps what an update assigns.
+    pub(crate) fn is_held_local(&self, name: &str) -> bool {
+        self.declaration.kind == ComponentKind::Dtc && self.assigned.contains(name)
     }
 
     /// The type of a variable without one: what its range or its value at the start says, else real.
@@ -255,6 +262,7 @@ impl<'a> Builder<'_, 'a> {
                 range: declared.range.bounds,
                 choices: declared.range.choices.clone(),
                 viewed: false,
+                structural: false,
                 unit: declared.unit.clone(),
                 documentation: declared.documentation.to_owned(),
                 span: Some(declared.name.span),
@@ -512,6 +520,34 @@ impl<'a> Builder<'_, 'a> {
         }
         if let Some(ClockDeclaration::Announced { name, initial: Some(initial) }) = &declaration.clock {
             self.initial_value(name, initial, None);
+        }
+        self.resting_states();
+    }
+
+    /// States of a location that a run does not start in do not exist at the start: any value will do.
+    fn resting_states(&mut self) {
+        let declaration = self.declaration;
+        let is_first = |position: usize, name: &str| match &declaration.initial_location {
+            Some(first) => first.value == name,
+            None => position == 0,
+        };
+        for (position, location) in declaration.locations.iter().enumerate() {
+            if is_first(position, &location.name.value) {
+                continue;
+            }
+            for variable in location.variables.iter().filter(|v| v.role == VariableRole::State) {
+                let Some(SymbolValue::Variable(symbol)) =
+                    self.symbols.declared(&variable.name.value).map(|symbol| symbol.value.clone())
+                else {
+                    continue;
+                };
+                let zero = self.graph.number(0.0);
+                for id in Builder::elements(symbol.first, symbol.shape.len()) {
+                    if let VariableKind::State(start @ None) = &mut self.variables[id.0 as usize].kind {
+                        *start = Some(zero);
+                    }
+                }
+            }
         }
     }
 

@@ -72,6 +72,11 @@ fn connect_one<'a>(
         return;
     }
     match (&source.what, &target.what) {
+        (EndKind::Event { direction, .. }, EndKind::Event { direction: other, .. })
+            if (*direction == Direction::Synchronised) != (*other == Direction::Synchronised) =>
+        {
+            builder.report(hs0415_connected_types::event_and_label(source.span, target.span));
+        }
         (EndKind::Event { label: from_label, direction }, EndKind::Event { label, direction: other }) => {
             wiring.composite.event_wires.push(EventWire {
                 from: EventEnd {

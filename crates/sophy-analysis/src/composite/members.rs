@@ -1,6 +1,6 @@
 use super::library::{Entry, Library};
 use crate::checks::{
-    hs0107_declared_twice, hs0108_defined_twice, hs0138_unknown_component, hs0139_unknown_parameter,
+    hs0107_declared_twice, hs0108_defined_twice, hs0126_out_of_range, hs0138_unknown_component, hs0139_unknown_parameter,
     hs0140_array_of_components,
 };
 use crate::component::{Builder, Given};
@@ -253,6 +253,19 @@ fn parameters<'a>(
                 None => {
                     builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span))
                 }
+            }
+        }
+        for (&id, &node) in ids.iter().zip(&nodes) {
+            let variable = class.variable(id);
+            let bounds = variable.range.and_then(|[low, high]| {
+                Some((class.graph.as_number(low)?, class.graph.as_number(high)?))
+            });
+            if let (Some((low, high)), Some(value)) = (bounds, builder.known_value(node))
+                && !(low..=high).contains(&value)
+            {
+                let declared = variable.span.unwrap_or(name.span);
+                let found = hs0126_out_of_range::diagnostic(&name.value, value, low, high, text.span, declared);
+                builder.report(found);
             }
         }
         for (id, node) in ids.into_iter().zip(nodes) {

@@ -194,7 +194,8 @@ impl<'a> Reader<'_, '_, 'a> {
             }
             "time" if self.lowering.place.time && !self.lowering.symbols.in_function() => {
                 let node = self.graph().leaf(Leaf::Time);
-                let measured = Measured::Known(Unit::SECOND);
+                // `sin(time)` is what everybody writes: time is a number of seconds, and adapts.
+                let measured = Measured::Unchecked;
                 Some(Typed::scalar(node, Quantity::Real, measured, Varies::Continuously))
             }
             "time" => self.not_available(name, span, "the simulated time"),

@@ -18,7 +18,7 @@ fn a_code_is_explained_in_any_letters() {
 #[test]
 fn an_unknown_code_is_wrong_use_and_a_near_one_is_named() {
     let folder = Folder::new("explain_unknown");
-    folder.sophy(&["explain", "HS033"]).ends(2, &["no code `HS033`", "did you mean `HS03"]);
+    folder.sophy(&["explain", "HS033"]).ends(2, &["no code `HS033`", "did you mean `HS0"]);
     folder.sophy(&["explain", "what"]).ends(2, &["no code `what`", "lists all codes"]);
 }
 

@@ -3,7 +3,8 @@ use crate::support::Folder;
 #[test]
 fn info_draws_the_automaton() {
     let folder = Folder::with_oscillator("info-draw");
-    let answer = folder.sophy(&["info", "oscillator.xml", "--draw", "a.svg", "--draw", "a.dot", "--draw", "a.png"]);
+    let answer =
+        folder.sophy(&["info", "oscillator.xml", "--draw", "a.svg", "--draw", "a.dot", "--draw", "a.png"]);
     answer.ends(0, &["wrote a.svg", "wrote a.dot", "wrote a.png"]);
     let svg = folder.read("a.svg");
     for text in ["Right", "Left", "x &lt; 0", "−stiffness·x"] {
@@ -12,7 +13,9 @@ fn info_draws_the_automaton() {
     let dot = folder.read("a.dot");
     assert!(dot.contains("b0 -> b1 [label=\"x < 0\"") && dot.contains("start0 -> b0;"), "{dot}");
     folder.sophy(&["info", "oscillator.xml", "--draw", "a.pdf"]).ends(2, &["a.pdf", ".svg"]);
-    folder.sophy(&["info", "oscillator.xml", "--draw", "b.svg", "--component", "wheel"]).ends(2, &["`wheel`"]);
+    folder
+        .sophy(&["info", "oscillator.xml", "--draw", "b.svg", "--component", "wheel"])
+        .ends(2, &["`wheel`"]);
 }
 
 #[test]
@@ -43,7 +46,9 @@ end body;
     );
     let info = folder.sophy(&["info", "chain.hsml"]);
     info.ends(0, &[]);
-    for text in ["cell : Cell[2000]", "2 000 in all", "more states (--all shows them)", "bandwidth 1 999", "Index 0"] {
+    for text in
+        ["cell : Cell[2000]", "2 000 in all", "more states (--all shows them)", "bandwidth 1 999", "Index 0"]
+    {
         assert!(info.out.contains(text), "{text}\n{}", info.out);
     }
     assert!(info.out.lines().count() < 200, "{}", info.out);

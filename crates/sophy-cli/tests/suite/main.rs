@@ -5,9 +5,9 @@
 #[cfg(unix)]
 mod endings;
 mod explain;
+mod info;
 mod languages;
 mod layout;
-mod info;
 mod messages;
 mod results;
 mod support;

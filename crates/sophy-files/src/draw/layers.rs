@@ -60,7 +60,7 @@ pub(super) struct Cell {
     pub(super) down: f64,
     /// The cell that it follows in its rank, whatever the rest does.
     host: Option<usize>,
-    /// Whether it stays under all items of its rank.
+    /// Whether it stays under the others of its rank.
     bottom: bool,
     /// Whether it carries a label.
     pub(super) label: bool,
@@ -98,6 +98,10 @@ pub(super) fn layers(items: &[Item], links: &[Link], flow: Flow) -> Layers {
         Flow::Onward => pinned(items, links),
     };
     let mut layers = Layers { cells: items.iter().zip(&ranks).map(item_cell).collect(), ..Layers::default() };
+    // What no arrow meets stands under the rest.
+    let mut lonely = vec![true; items.len()];
+    links.iter().flat_map(|link| [link.from, link.to]).for_each(|item| lonely[item] = false);
+    layers.cells.iter_mut().zip(lonely).for_each(|(cell, lonely)| cell.bottom = lonely);
     for (number, link) in links.iter().enumerate() {
         layers.lead(number, link, items, flow);
     }
@@ -290,6 +294,7 @@ impl Layers {
     /// Orders every rank so that few arrows cross: the mean of the neighbours, from left to right and back, and the
     /// best that was seen.
     fn order(&mut self) {
+        self.ranks.iter_mut().for_each(|rank| rank.sort_by_key(|&cell| self.cells[cell].bottom));
         let mut best = (usize::MAX, self.ranks.clone());
         for sweep in 0..=SWEEPS {
             let position = self.positions();

@@ -3,6 +3,7 @@
 use super::diagram::{Arrow, BoxKind, Diagram, DiagramBox, DiagramKind, DiagramPort, Line};
 use super::layers::{Item, Link, Pin};
 use crate::plot::text::{fitted, width};
+use std::collections::HashMap;
 
 /// Sizes of letters, px.
 pub(super) const NAME: f64 = 13.0;
@@ -71,9 +72,24 @@ pub(super) fn measure(diagram: &Diagram) -> Measured {
         let widest = measured.items.iter_mut().filter(pinned).map(|item| item.width).fold(0.0, f64::max);
         measured.items.iter_mut().filter(pinned).for_each(|item| item.width = widest);
     }
+    let mut carrier: HashMap<(usize, Option<usize>), usize> = HashMap::new();
     let mut degree = vec![[0_usize; 2]; diagram.boxes.len()];
     for arrow in diagram.arrows.iter().filter(|arrow| is_led(arrow, diagram)) {
-        let label = Label { above: shown(&arrow.above), below: shown(&arrow.below) };
+        let mut label = Label { above: shown(&arrow.above), below: shown(&arrow.below) };
+        if diagram.kind == DiagramKind::Composition && !label.above.is_empty() {
+            // Arrows that begin at one port have one label there.
+            let begin = (arrow.from.of, arrow.from.port);
+            let first = *carrier.entry(begin).or_insert(measured.labels.len());
+            if let Some(known) = measured.labels.get_mut(first) {
+                let text = label.above.join(" ");
+                let line = known.above.join(" ");
+                if line.split(' ').all(|word| word != text) {
+                    known.above = vec![fitted(&format!("{line} {text}"), TEXT, WIDEST_LABEL)];
+                }
+                measured.lead_in[first] = widest(known.above.iter(), TEXT) + 2.0 * LABEL_GAP;
+                label = Label::default();
+            }
+        }
         let widest = widest(label.above.iter().chain(&label.below), TEXT);
         let height =
             |lines: &[String]| LEADING * lines.len() as f64 + if lines.is_empty() { 0.0 } else { LABEL_GAP };

@@ -7,7 +7,7 @@ const BOX_GAP: f64 = 26.0;
 const LANE_GAP: f64 = 14.0;
 const SWEEPS: usize = 60;
 /// Rounds in which labels and ends of arrows settle.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 24;
 
 /// The height of the middle of every cell, px, downwards; the highest top is at 0.
 ///
@@ -24,11 +24,12 @@ pub(super) fn heights(layers: &mut Layers, items: &[Item], flow: Flow) -> Vec<f6
         if flow == Flow::Around {
             straighten(layers, items, &y);
         }
-        relax(layers, items.len(), &connected, round % 2 == 0, false, &mut y);
+        relax(layers, items.len(), &connected, round % 2 == 0, round < ROUNDS / 2, &mut y);
     }
     // At last what passes through follows the arrow from the left, so that it is straight where it can be.
     for rank in 0..layers.ranks.len() {
-        let from_left = |cell: usize| connected[cell].iter().find(|&&hop| layers.other_rank(hop, cell) < rank);
+        let from_left =
+            |cell: usize| connected[cell].iter().find(|&&hop| layers.other_rank(hop, cell) < rank);
         let wanted = |&cell: &usize| match from_left(cell) {
             Some(&hop) if cell >= items.len() => (straight(layers, hop, cell, &y), 1.0),
             _ => (y[cell], STAYS),
@@ -67,7 +68,14 @@ fn straight(layers: &Layers, hop: usize, cell: usize, y: &[f64]) -> f64 {
 }
 
 /// Moves all cells, or only those that arrows pass through, towards what they are connected with.
-fn relax(layers: &Layers, items: usize, connected: &[Vec<usize>], rightwards: bool, all: bool, y: &mut [f64]) {
+fn relax(
+    layers: &Layers,
+    items: usize,
+    connected: &[Vec<usize>],
+    rightwards: bool,
+    all: bool,
+    y: &mut [f64],
+) {
     for step in 0..layers.ranks.len() {
         let rank = if rightwards { step } else { layers.ranks.len() - 1 - step };
         let wanted = |&cell: &usize| {
@@ -126,7 +134,7 @@ fn straighten(layers: &mut Layers, items: &[Item], y: &[f64]) {
 }
 
 /// Part of a side, at its corners, where no arrow ends, px.
-const CORNER: f64 = 12.0;
+const CORNER: f64 = 10.0;
 /// Least distance of two arrows at a side, px.
 const NEAREST_ENDS: f64 = 14.0;
 

@@ -62,6 +62,7 @@ impl Flattener<'_> {
                         value,
                         unit: variable.unit.clone(),
                         knob: matches!(variable.kind, VariableKind::Parameter { knob: true, .. }),
+                        structural: variable.structural,
                         origin: Origin { class: at.class, variable: id },
                         span: variable.span,
                     });

@@ -2,9 +2,9 @@ use super::lines::{self, Comment, Piece};
 use super::spacing::{break_before, depth_of, space_between};
 use crate::kinds::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 
-/// The text of a tree without mistakes, laid out.
-pub(super) fn laid_out(root: &SyntaxNode) -> String {
-    let mut layout = Layout::default();
+/// The tree of `text`, which has no mistakes, laid out.
+pub(super) fn laid_out(root: &SyntaxNode, text: &str) -> String {
+    let mut layout = Layout { text, ..Layout::default() };
     layout.node(root, 0);
     layout.end();
     layout.out
@@ -21,13 +21,16 @@ struct Start {
 }
 
 #[derive(Default)]
-struct Layout {
+struct Layout<'t> {
+    text: &'t str,
     out: String,
     /// The tokens of the item that is being read, and its level.
-    pieces: Vec<Piece>,
+    pieces: Vec<Piece<'t>>,
+    /// The comments inside of it, behind each token that has some.
+    inside: Vec<Vec<Comment<'t>>>,
     level: usize,
-    /// White space and comments since the last token.
-    comments: Vec<Comment>,
+    /// Comments since the last token.
+    comments: Vec<Comment<'t>>,
     newlines: usize,
     before: Option<SyntaxToken>,
     /// The next token starts a line.
@@ -36,7 +39,7 @@ struct Layout {
     written: usize,
 }
 
-impl Layout {
+impl<'t> Layout<'t> {
     /// Lays out `node`, whose first line has `level`.
     fn node(&mut self, node: &SyntaxNode, level: usize) {
         let inner = level + usize::from(indents(node.kind()));
@@ -70,7 +73,7 @@ impl Layout {
             SyntaxKind::Whitespace => self.newlines = token.text().matches('\n').count(),
             kind if kind.is_trivia() => {
                 let own_line = self.newlines > 0 || (self.before.is_none() && self.comments.is_empty());
-                let text = token.text().trim_end().to_owned();
+                let text = self.text_of(token).trim_end();
                 self.comments.push(Comment { text, own_line, after_blank: self.newlines > 1 });
                 self.newlines = 0;
             }
@@ -79,8 +82,11 @@ impl Layout {
                     Some(start) => self.new_line(start),
                     None => {
                         let comments = std::mem::take(&mut self.comments);
-                        if let Some(last) = self.pieces.last_mut() {
-                            last.comments = comments;
+                        if let Some(last) = self.pieces.last_mut()
+                            && !comments.is_empty()
+                        {
+                            last.commented = true;
+                            self.inside.push(comments);
                         }
                     }
                 }
@@ -101,11 +107,11 @@ impl Layout {
             break_here = break_before(before, token, depth);
         }
         self.pieces.push(Piece {
-            text: token.text().to_owned(),
+            text: self.text_of(token),
             space,
-            depth: break_here.map(|(depth, _)| depth),
+            depth: break_here.map(|(depth, _)| u16::try_from(depth).unwrap_or(u16::MAX)),
             all: break_here.is_some_and(|(_, all)| all),
-            comments: Vec::new(),
+            commented: false,
         });
     }
 
@@ -115,12 +121,12 @@ impl Layout {
         self.item();
         if let Some(trailing) = comments.next_if(|comment| !comment.own_line) {
             self.out.push_str("  ");
-            self.out.push_str(&trailing.text);
+            self.out.push_str(trailing.text);
         }
         for comment in comments {
             self.break_line(comment.after_blank && self.written >= start.comments);
             lines::spaces(&mut self.out, 2 * start.comments);
-            self.out.push_str(&comment.text);
+            self.out.push_str(comment.text);
             self.written = start.comments;
         }
         self.break_line(self.newlines > 1 && self.written >= start.level && !start.ends);
@@ -128,11 +134,17 @@ impl Layout {
     }
 
     fn item(&mut self) {
-        let pieces = std::mem::take(&mut self.pieces);
-        if !pieces.is_empty() {
-            lines::write(&mut self.out, &pieces, 2 * self.level);
+        if !self.pieces.is_empty() {
+            lines::write(&mut self.out, &self.pieces, &self.inside, 2 * self.level);
             self.written = self.level;
+            self.pieces.clear();
+            self.inside.clear();
         }
+    }
+
+    fn text_of(&self, token: &SyntaxToken) -> &'t str {
+        let range = token.text_range();
+        self.text.get(range.start().into()..range.end().into()).unwrap_or("")
     }
 
     fn break_line(&mut self, blank: bool) {

@@ -25,7 +25,7 @@ const WIDTH: usize = 100;
 pub fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
     let parse = parse_file(text);
     if parse.errors().is_empty() {
-        Ok(layout::laid_out(&parse.syntax()))
+        Ok(layout::laid_out(&parse.syntax(), text))
     } else {
         Err(parse.errors().to_vec())
     }

@@ -73,7 +73,7 @@ impl Census {
                 }
                 of_class.copies += next.copies;
             }
-            census.components.push(ComponentDescription {
+            census.list(ComponentDescription {
                 name: next.name,
                 kind: kind(class),
                 class: class.name.clone(),
@@ -84,6 +84,20 @@ impl Census {
             });
         }
         census
+    }
+
+    /// Elements that were specialised differently are one all the same, unless they have members of their own.
+    fn list(&mut self, next: ComponentDescription) {
+        if let Some(last) = self.components.last_mut()
+            && (last.depth, &last.name, &last.class) == (next.depth, &next.name, &next.class)
+            && next.kind != "CC"
+            && let (Ok(a), Ok(b)) = (last.shape.parse::<u64>(), next.shape.parse::<u64>())
+        {
+            last.shape = (a + b).to_string();
+            last.copies += next.copies;
+            return;
+        }
+        self.components.push(next);
     }
 }
 
@@ -116,6 +130,11 @@ fn members(members: &[Member], of: &Pending) -> Vec<Pending> {
             one.shape = (one.copies / of.copies.max(1)).to_string();
         }
     }
+    let mut first: HashMap<&str, usize> = HashMap::new();
+    for (position, member) in members.iter().enumerate() {
+        first.entry(&member.name).or_insert(position);
+    }
+    found.sort_by_key(|one| first.get(one.name.as_str()).copied());
     found
 }
 

@@ -1,7 +1,8 @@
 use super::notation::short;
 use sophy_files::{Arrow, ArrowEnd, BoxKind, Diagram, DiagramBox, DiagramKind, Line};
 use sophy_ir::{
-    Actions, Class, Equation, HybridAutomaton, Location, NodeId, Rule, Transition, Trigger, VariableId,
+    Actions, Class, Equation, HybridAutomaton, Leaf, Location, Node, NodeId, Rule, Transition, Trigger,
+    VariableId,
 };
 
 /// Locations with their equations and the transitions between them (thesis figure 8.1).
@@ -47,6 +48,14 @@ impl Drawing<'_> {
         short(self.class, node)
     }
 
+    /// Whether a value only shows a variable under the same name.
+    fn only_shows(&self, value: &Equation) -> bool {
+        match self.class.graph.node(value.right) {
+            Node::Leaf(Leaf::Variable(id)) => self.name(id) == self.name(value.variable),
+            _ => false,
+        }
+    }
+
     /// Values that are the same in all of several locations.
     fn everywhere(&self) -> Vec<Equation> {
         let [first, others @ ..] = self.automaton.locations.as_slice() else { return Vec::new() };
@@ -59,7 +68,7 @@ impl Drawing<'_> {
             .collect();
         let same =
             |value: &&Equation| known.iter().all(|other| other.get(&value.variable) == Some(&value.right));
-        first.values.iter().filter(same).cloned().collect()
+        first.values.iter().filter(same).filter(|value| !self.only_shows(value)).cloned().collect()
     }
 
     fn location(&self, number: usize, location: &Location, everywhere: &[Equation]) -> DiagramBox {
@@ -76,7 +85,14 @@ impl Drawing<'_> {
             lines.push(plain(format!("{} constant", rest.join(", "))));
         }
         let hoisted = |value: &&Equation| !everywhere.iter().any(|other| other.variable == value.variable);
-        lines.extend(location.values.iter().filter(hoisted).map(|value| self.value(value)));
+        lines.extend(
+            location
+                .values
+                .iter()
+                .filter(hoisted)
+                .filter(|v| !self.only_shows(v))
+                .map(|value| self.value(value)),
+        );
         for constraint in &location.constraints {
             lines.push(plain(format!("{} = {}", self.text(constraint.left), self.text(constraint.right))));
         }

@@ -1,7 +1,7 @@
 use super::notation::{short, tidy};
 use super::ports::Ports;
 use sophy_files::{Arrow, ArrowEnd, BoxKind, Diagram, DiagramBox, DiagramKind, DiagramPort, Line};
-use sophy_ir::{Class, ClassIndex, Clock, Composite, Discrete, EventEnd, Model, Port, Sources};
+use sophy_ir::{Class, Clock, Composite, Discrete, EventEnd, Model, Port, Sources};
 use std::collections::{HashMap, HashSet};
 
 /// Members of one name are one box, the elements of a vector one port, parallel connections one arrow.
@@ -53,7 +53,7 @@ pub(super) fn discrete(class: &Class, discrete: &Discrete) -> Diagram {
     }
 }
 
-/// All members of one name and class.
+/// All members of one name that are of one kind.
 struct Group<'a> {
     name: &'a str,
     class: &'a Class,
@@ -74,6 +74,7 @@ struct Bundle {
 }
 
 struct Drawing<'a> {
+    model: &'a Model,
     class: &'a Class,
     groups: Vec<Group<'a>>,
     /// The group of each member.
@@ -92,11 +93,12 @@ type End = (Option<usize>, usize);
 impl<'a> Drawing<'a> {
     fn new(model: &'a Model, class: &'a Class, composite: &'a Composite) -> Self {
         let mut groups: Vec<Group<'a>> = Vec::new();
-        let mut known: HashMap<(&str, ClassIndex), usize> = HashMap::new();
+        let mut known: HashMap<(&str, &str), usize> = HashMap::new();
         let mut group_of = Vec::with_capacity(composite.members.len());
         for member in &composite.members {
-            let group = *known.entry((&member.name, member.class)).or_insert_with(|| {
-                let class = model.class(member.class);
+            let class = model.class(member.class);
+            // Elements that were specialised differently are one all the same.
+            let group = *known.entry((&member.name, &class.name)).or_insert_with(|| {
                 let (inputs, outputs) = (Ports::inputs(class), Ports::outputs(class));
                 let extents: Vec<String> = member.extents.iter().map(u32::to_string).collect();
                 let shape = extents.join(",");
@@ -111,6 +113,7 @@ impl<'a> Drawing<'a> {
         }
         let (inputs, outputs) = (Ports::inputs(class), Ports::outputs(class));
         Drawing {
+            model,
             class,
             groups,
             group_of,
@@ -124,11 +127,13 @@ impl<'a> Drawing<'a> {
 
     /// The port of a variable; `source` says whether the arrow begins there.
     fn end(&mut self, port: &Port, source: bool) -> Option<End> {
-        let group = match port.member {
-            Some(member) => Some(*self.group_of.get(member as usize)?),
-            None => None,
+        let (group, class) = match port.member {
+            Some(member) => {
+                let class = self.composite.members.get(member as usize)?.class;
+                (Some(*self.group_of.get(member as usize)?), self.model.class(class))
+            }
+            None => (None, self.class),
         };
-        let class = group.map_or(self.class, |group| self.groups[group].class);
         let variable = class.variables.get(port.variable.0 as usize)?;
         Some((group, self.side(group, source).variable(class, variable)))
     }

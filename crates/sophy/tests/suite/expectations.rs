@@ -3,18 +3,18 @@ use std::path::Path;
 
 /// A message: expected, with a part of its text, or found, with all of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Message {
+pub(crate) struct Message {
     /// From 1; 0 if it has no place.
-    pub line: usize,
-    pub severity: String,
-    pub code: String,
+    pub(crate) line: usize,
+    pub(crate) severity: String,
+    pub(crate) code: String,
     /// Message, ways out and notes.
-    pub text: String,
+    pub(crate) text: String,
 }
 
 impl Message {
     /// Whether `found` is what was expected.
-    pub fn describes(&self, found: &Message) -> bool {
+    pub(crate) fn describes(&self, found: &Message) -> bool {
         (self.line, &self.severity, &self.code) == (found.line, &found.severity, &found.code)
             && found.text.contains(&self.text)
     }
@@ -22,24 +22,24 @@ impl Message {
 
 /// What stands in the comments of a file.
 #[derive(Clone, Debug, Default)]
-pub struct Expectations {
-    pub root: Option<String>,
-    pub messages: Vec<Message>,
-    pub stop: f64,
-    pub quantum: f64,
-    pub knobs: Vec<(String, f64)>,
-    pub inputs: Vec<(String, f64)>,
+pub(crate) struct Expectations {
+    pub(crate) root: Option<String>,
+    pub(crate) messages: Vec<Message>,
+    pub(crate) stop: f64,
+    pub(crate) quantum: f64,
+    pub(crate) knobs: Vec<(String, f64)>,
+    pub(crate) inputs: Vec<(String, f64)>,
     /// Name, value, tolerance.
-    pub finals: Vec<(String, f64, f64)>,
-    pub final_labels: Vec<(String, String)>,
+    pub(crate) finals: Vec<(String, f64, f64)>,
+    pub(crate) final_labels: Vec<(String, String)>,
     /// Time, name, tolerance.
-    pub events: Vec<(f64, String, f64)>,
-    pub no_events: bool,
+    pub(crate) events: Vec<(f64, String, f64)>,
+    pub(crate) no_events: bool,
 }
 
 impl Expectations {
     /// Those of the file at `path`.
-    pub fn of(path: &Path) -> Self {
+    pub(crate) fn of(path: &Path) -> Self {
         let bytes = fs::read(path).unwrap();
         let text = String::from_utf8_lossy(&bytes);
         let mark = if path.extension().is_some_and(|extension| extension == "xml") { "<!--!" } else { "%!" };
