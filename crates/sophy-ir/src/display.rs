@@ -48,7 +48,9 @@ impl Graph {
             Node::Locate(column, a) => {
                 (9, format!("locate({:?}, {})", self.column_name(column), write(a, 0)))
             }
-            Node::Lookup(column, a) => (9, format!("lookup({:?}, {})", self.column_name(column), write(a, 0))),
+            Node::Lookup(column, a) => {
+                (9, format!("lookup({:?}, {})", self.column_name(column), write(a, 0)))
+            }
             Node::Select(c, a, b) => {
                 (0, format!("if {} then {} else {}", write(c, 1), write(a, 1), write(b, 0)))
             }

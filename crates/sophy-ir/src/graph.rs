@@ -2,7 +2,9 @@ use crate::arithmetic::{Binary, Comparison, Unary, integer_power, locate, lookup
 use crate::class::VariableId;
 use crate::column::Column;
 use rustc_hash::FxBuildHasher;
-use sophy_field::{AlgebraicIndex, ColumnIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
+use sophy_field::{
+    AlgebraicIndex, ColumnIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex,
+};
 use std::hash::BuildHasher;
 use std::sync::Arc;
 

@@ -110,9 +110,8 @@ mod tests {
             for row in 0..m {
                 if row != column {
                     let factor = rows[row][column] / rows[column][column];
-                    for k in column..=m {
-                        rows[row][k] -= factor * rows[column][k];
-                    }
+                    let pivot = rows[column].clone();
+                    rows[row].iter_mut().zip(pivot).for_each(|(x, p)| *x -= factor * p);
                 }
             }
         }

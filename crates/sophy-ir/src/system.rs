@@ -4,8 +4,8 @@ use crate::graph::{Graph, Leaf, Node, NodeId};
 use crate::model::Quantity;
 use sophy_diagnostics::Span;
 use sophy_field::{
-    AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex,
-    WatchIndex,
+    AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex,
+    TransitionIndex, WatchIndex,
 };
 use std::fmt;
 

@@ -6,8 +6,8 @@
 use rustc_hash::FxHashMap;
 use sophy_field::{AlgebraicIndex, ColumnIndex, StairIndex, TruthIndex, WatchIndex};
 use sophy_ir::{
-    Binary, Column, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Row, Stair, System, Truth, Unary,
-    Watch,
+    Binary, Column, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Row, Stair, System, Truth,
+    Unary, Watch,
 };
 
 /// Lifts the kinks of rates, algebraic variables and guards. Outputs and resets keep theirs: they are read
@@ -111,7 +111,8 @@ impl Lifter<'_> {
         let mut numbers = whole.numbers.clone();
         // An infinite end stays with the knot before it.
         let (first, last) = (1, numbers.len().saturating_sub(1));
-        let kept = if numbers.last().is_some_and(|end| end.is_finite()) { last } else { last.saturating_sub(1) };
+        let kept =
+            if numbers.last().is_some_and(|end| end.is_finite()) { last } else { last.saturating_sub(1) };
         if first < kept {
             numbers.drain(first..kept);
         }

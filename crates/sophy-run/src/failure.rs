@@ -1,7 +1,7 @@
 //! A run that cannot go on says what, where, why, and with which values.
 
-use sophy_diagnostics::{Code, Diagnostic, Severity, Span};
 use crate::tables::{outside, range_text};
+use sophy_diagnostics::{Code, Diagnostic, Severity, Span};
 use sophy_field::{Engine, Fault, LocationIndex, SourceIndex, StateIndex, TransitionIndex, WatchIndex};
 use sophy_hybrid::HybridError;
 use sophy_ir::{Leaf, NodeId, System, Value};
@@ -170,7 +170,9 @@ impl Reporter<'_> {
         failure.span = self.rate_span(state);
         failure.notes.push(self.equation(state));
         failure.notes.push(self.values(self.rate_sources(state), time));
-        failure.notes.extend(self.outside(self.system.states[state.position()].rate.at(self.location_of(state)), time));
+        failure.notes.extend(
+            self.outside(self.system.states[state.position()].rate.at(self.location_of(state)), time),
+        );
         failure
     }
 
@@ -181,7 +183,8 @@ impl Reporter<'_> {
         let (name, range) = knots.map_or(("?", String::new()), |knots| (&knots.name, range_text(knots)));
         let ends = knots.and_then(|knots| knots.numbers.first().zip(knots.numbers.last()));
         let near = |end: f64| (value - end).abs() <= 1e-9 * end.abs().max(1.0);
-        let goes = if ends.is_some_and(|(&first, &last)| near(first) || near(last)) { " and goes on" } else { "" };
+        let goes =
+            if ends.is_some_and(|(&first, &last)| near(first) || near(last)) { " and goes on" } else { "" };
         let mut failure = self.failure(
             "SR0009",
             time,

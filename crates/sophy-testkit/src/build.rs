@@ -1,8 +1,8 @@
 use sophy_ir::{
     Actions, Assignment, Binary, Body, Class, ClassIndex, Comparison, Composite, Emission, Equation,
     EventEnd, EventPort, EventSection, EventWire, Graph, HybridAutomaton, Leaf, Location, Member, Model,
-    NodeId, Port, Quantity, Sources, Special, Table, Transition, Trigger, Unary, Variable, VariableId, VariableKind,
-    Wire,
+    NodeId, Port, Quantity, Sources, Special, Table, Transition, Trigger, Unary, Variable, VariableId,
+    VariableKind, Wire,
 };
 
 /// Builds a [`Model`] by hand: components side by side, all expressions in one graph, variables numbered

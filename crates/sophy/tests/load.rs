@@ -75,15 +75,15 @@ fn imported_components_are_found_and_count_in_the_hash() {
 
 #[test]
 fn the_root_is_what_is_asked_for() {
-    let world = MemoryWorld::default().with("parts.hsml", PARTS).with(
-        "gain.toml",
-        "model = \"parts.hsml\"\nsystem = \"Gain\"\n[inputs]\nu = 1.0\n",
-    );
+    let world = MemoryWorld::default()
+        .with("parts.hsml", PARTS)
+        .with("gain.toml", "model = \"parts.hsml\"\nsystem = \"Gain\"\n[inputs]\nu = 1.0\n");
     let name = |path: &str, root: Root<'_>| {
         let loaded = load_as(&world, Path::new(path), root);
-        loaded.model.map(|model| model.name().to_owned()).ok_or_else(|| {
-            loaded.diagnostics.iter().map(|message| message.code.0).collect::<Vec<_>>()
-        })
+        loaded
+            .model
+            .map(|model| model.name().to_owned())
+            .ok_or_else(|| loaded.diagnostics.iter().map(|message| message.code.0).collect::<Vec<_>>())
     };
     assert_eq!(name("parts.hsml", Root::Implied), Err(vec!["HS0142"]));
     assert_eq!(name("parts.hsml", Root::IfClear), Err(vec![]));

@@ -27,7 +27,8 @@ fn every_page_explains_and_has_an_example_that_it_is_about() {
         // What it means comes first, the way out last.
         assert!(parts.next().is_some_and(|meaning| meaning.len() > 20), "{code}: what does it mean?");
         assert!(text.lines().next_back().is_some_and(|last| last != "```"), "{code}: what is the way out?");
-        let examples: Vec<(&str, &str)> = parts.step_by(2).map(|block| block.split_once('\n').unwrap()).collect();
+        let examples: Vec<(&str, &str)> =
+            parts.step_by(2).map(|block| block.split_once('\n').unwrap()).collect();
         assert_eq!(examples.is_empty(), WITHOUT_EXAMPLE.contains(&code), "{code}: an example?");
         for (language, example) in examples {
             let found = messages(code, language, &format!("{example}\n"));

@@ -10,7 +10,12 @@
 //! - `%! event 0.5 NAME +- 1e-6`: a transition, `component.transition` in a composition; if one is given, all are,
 //!   in order. `%! no events` where there are none.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::expect_used, reason = "a test stops at the first surprise")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::expect_used,
+    reason = "a test stops at the first surprise"
+)]
 
 mod suite {
     pub mod expectations;
@@ -49,7 +54,11 @@ fn bad_models_have_the_messages_that_stand_in_them() {
         let agree = found.len() == expected.messages.len()
             && expected.messages.iter().all(|message| found.iter().any(|found| message.describes(found)));
         if !agree {
-            wrong.push(format!("{}\n  expected {:#?}\n  found {found:#?}", path.display(), expected.messages));
+            wrong.push(format!(
+                "{}\n  expected {:#?}\n  found {found:#?}",
+                path.display(),
+                expected.messages
+            ));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -83,7 +92,10 @@ fn a_wrong_token_costs_few_messages() {
     counts.sort_by_key(|(count, _)| *count);
     let at = |share: f64| counts[((counts.len() - 1) as f64 * share) as usize].0;
     eprintln!("{} mutations: median {}, 95 % {}, most {}", counts.len(), at(0.5), at(0.95), at(1.0));
-    eprintln!("the worst:\n{}", counts.iter().rev().take(8).map(|(_, t)| t.as_str()).collect::<Vec<_>>().join("\n"));
+    eprintln!(
+        "the worst:\n{}",
+        counts.iter().rev().take(8).map(|(_, t)| t.as_str()).collect::<Vec<_>>().join("\n")
+    );
     assert!(counts.len() > 200);
     assert!(at(0.5) <= 3, "half of the mistakes cost {} messages or more", at(0.5));
 }
@@ -137,7 +149,9 @@ fn run(path: &Path) -> Result<(), String> {
         Err(error) => return wrong(error.to_string()),
     };
     for (name, value, tolerance) in &expected.finals {
-        let Some(values) = simulation.table.real(name) else { return wrong(format!("no `{name}` in the result")) };
+        let Some(values) = simulation.table.real(name) else {
+            return wrong(format!("no `{name}` in the result"));
+        };
         let last = values.last().copied().unwrap_or(f64::NAN);
         if !((last - value).abs() <= *tolerance) {
             return wrong(format!("{name} is {last:.17} at the end, not {value} +- {tolerance}"));
@@ -178,4 +192,3 @@ fn files(folder: &str) -> Vec<PathBuf> {
     files.sort();
     files
 }
-

@@ -16,7 +16,8 @@ pub(crate) fn fmt(arguments: &Fmt, terminal: &Terminal) -> Exit {
         }
     };
     let exits: Vec<Exit> = arguments.files.iter().map(|file| one(file)).collect();
-    let worst = [Exit::FileFailed, Exit::Mistakes, Exit::WrongUse].into_iter().find(|exit| exits.contains(exit));
+    let worst =
+        [Exit::FileFailed, Exit::Mistakes, Exit::WrongUse].into_iter().find(|exit| exits.contains(exit));
     worst.unwrap_or(Exit::Done)
 }
 

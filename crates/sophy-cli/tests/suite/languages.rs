@@ -76,7 +76,9 @@ fn check_finds_loops_across_components() {
         "loop.hsml",
         &format!("{gain}SYSTEM Loop is\nbody\n  components\n    a : Gain;\n    b : Gain;\n  end components;\n  connections\n    a.y -> b.u;\n    b.y -> a.u;\n  end connections;\nend body;\n"),
     );
-    folder.sophy(&["check", "loop.hsml"]).ends(1, &["HS0303", "a.y = 2*u", "b.y = 2*u", "loop.hsml: 1 error"]);
+    folder
+        .sophy(&["check", "loop.hsml"])
+        .ends(1, &["HS0303", "a.y = 2*u", "b.y = 2*u", "loop.hsml: 1 error"]);
     folder.sophy(&["run", "loop.hsml"]).ends(1, &["HS0303"]);
 }
 
@@ -86,7 +88,8 @@ fn models_go_from_one_language_to_the_other_and_run_alike() {
     folder.sophy(&["convert", "oscillator.xml", "oscillator.hsml"]).ends(0, &["wrote oscillator.hsml"]);
     folder.sophy(&["fmt", "--check", "oscillator.hsml"]).ends(0, &[]);
     folder.sophy(&["convert", "oscillator.hsml", "again.xml"]).ends(0, &["wrote again.xml"]);
-    let run = |file: &str| folder.sophy(&["run", file, "--stop", "10", "--output", "-"]).ends(0, &[]).out.clone();
+    let run =
+        |file: &str| folder.sophy(&["run", file, "--stop", "10", "--output", "-"]).ends(0, &[]).out.clone();
     let expected = run("oscillator.xml");
     assert_eq!(run("oscillator.hsml"), expected);
     assert_eq!(run("again.xml"), expected);

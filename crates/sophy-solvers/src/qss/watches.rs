@@ -244,7 +244,13 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// The sign just right of `t`: the first coefficient that is not zero decides. Where all that the engine
     /// carries vanish, a watch that is not affine may still leave zero at a higher order: enclosures decide.
-    pub(super) fn sign_after(&mut self, e: &Equations, watch: WatchIndex, t: f64, c: &[f64; 3]) -> Result<Sign, Fault> {
+    pub(super) fn sign_after(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+        c: &[f64; 3],
+    ) -> Result<Sign, Fault> {
         if *c != [0.0; 3] || e.watches[watch.position()].affine {
             return Ok(Sign::after(c));
         }
@@ -399,7 +405,12 @@ impl<const ORDER: usize> Qss<ORDER> {
         Ok(c)
     }
 
-    pub(super) fn raw_difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
+    pub(super) fn raw_difference(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+    ) -> Result<[f64; 3], Fault> {
         let [value, c1, c2] = self.value_of(e, &e.watches[watch.position()].formula, t, ORDER + 1);
         if !value.is_finite() {
             return Err(Fault::WatchNotFinite { watch, time: t, value });

@@ -52,7 +52,10 @@ fn mutations(text: &str) -> Vec<(String, String)> {
         let written = &text[token.clone()];
         let line = text[..token.start].matches('\n').count() + 1;
         all.push((format!("`{written}` of line {line} deleted"), with(token.clone(), " ")));
-        all.push((format!("`{written}` of line {line} doubled"), with(token.clone(), &format!("{written} {written}"))));
+        all.push((
+            format!("`{written}` of line {line} doubled"),
+            with(token.clone(), &format!("{written} {written}")),
+        ));
         if let Some(next) = tokens.get(position + 1) {
             let other = &text[next.clone()];
             let between = &text[token.end..next.start];
@@ -75,11 +78,13 @@ fn tokens(text: &str) -> Vec<std::ops::Range<usize>> {
             '"' | '\'' => rest[1..].find(first).map_or(rest.len(), |end| end + 2),
             _ if word(first) => {
                 let hyphenated = ["negative-to-positive", "positive-to-negative"];
-                let known = hyphenated.iter().find(|known| rest.starts_with(**known)).map(|known| known.len());
+                let known =
+                    hyphenated.iter().find(|known| rest.starts_with(**known)).map(|known| known.len());
                 known.unwrap_or_else(|| rest.find(|c| !word(c)).unwrap_or(rest.len()))
             }
             _ => {
-                let known = [":=", "->", "<=", ">=", "<>", ".."].iter().find(|known| rest.starts_with(**known));
+                let known =
+                    [":=", "->", "<=", ">=", "<>", ".."].iter().find(|known| rest.starts_with(**known));
                 known.map_or(first.len_utf8(), |known| known.len())
             }
         };
