@@ -1,8 +1,8 @@
 //! A campaign: workers one after the other, and what to do when one of them finds something or dies.
 
-use crate::corpus::{Corpus, Notation, root};
+use crate::corpus::Corpus;
 use crate::minimise::minimise;
-use crate::mutate::input;
+use crate::mutate::{broken, input};
 use crate::tally::Tally;
 use crate::target::Target;
 use std::io::{self, BufRead, BufReader};
@@ -12,7 +12,7 @@ use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// After this many finds a campaign ends: something is quite broken.
-const MOST_FINDS: usize = 10;
+const MOST_FINDS: u64 = 1000;
 
 /// What is asked for.
 pub(crate) struct Campaign {
@@ -21,11 +21,13 @@ pub(crate) struct Campaign {
     pub(crate) time: Duration,
 }
 
-/// An input that broke something.
+/// Inputs that broke something in the same way.
 pub(crate) struct Find {
+    /// The first of them.
     pub(crate) index: u64,
     pub(crate) cause: String,
     pub(crate) file: PathBuf,
+    pub(crate) times: u64,
 }
 
 /// Throws the inputs at `target`; what breaks is written to `tests/fuzz`.
@@ -35,14 +37,17 @@ pub(crate) struct Find {
 pub(crate) fn run(target: Target, campaign: &Campaign) -> io::Result<(Tally, Vec<Find>)> {
     let begin = Instant::now();
     let mut tally = Tally::default();
-    let mut finds = Vec::new();
-    let mut indices = campaign.indices.clone();
-    while finds.len() < MOST_FINDS {
-        let left = campaign.time.saturating_sub(begin.elapsed());
-        if indices.is_empty() || left.is_zero() {
-            break;
+    let mut finds: Vec<Find> = Vec::new();
+    // What was broken once, then the new.
+    let known = broken(&Corpus::read(target.notation())?);
+    let mut left = vec![campaign.indices.clone(), known];
+    while finds.iter().map(|find| find.times).sum::<u64>() < MOST_FINDS {
+        let Some(indices) = left.pop() else { break };
+        let time = campaign.time.saturating_sub(begin.elapsed());
+        if indices.is_empty() || time.is_zero() {
+            continue;
         }
-        let report = watch(target, campaign.seed, indices.clone(), left, false)?;
+        let report = watch(target, campaign.seed, indices.clone(), time, false)?;
         tally.join(&report.tally.unwrap_or_default());
         let found = match report.found {
             Some(found) => Some(found),
@@ -53,12 +58,23 @@ pub(crate) fn run(target: Target, campaign: &Campaign) -> io::Result<(Tally, Vec
                 Some(again.found.unwrap_or((again.at, format!("crash: {}", again.status))))
             }
         };
-        let Some((index, cause)) = found else { break };
-        let file = keep(target, campaign.seed, index)?;
-        finds.push(Find { index, cause, file });
-        indices.start = index + 1;
+        let Some((index, cause)) = found else { continue };
+        left.push(index + 1..indices.end);
+        match finds.iter_mut().find(|find| alike(&find.cause, &cause)) {
+            Some(find) => find.times += 1,
+            None => {
+                let file = keep(target, campaign.seed, index)?;
+                finds.push(Find { index, cause, file, times: 1 });
+            }
+        }
     }
     Ok((tally, finds))
+}
+
+/// Whether two causes differ in numbers only.
+fn alike(one: &str, other: &str) -> bool {
+    let words = |cause: &str| cause.replace(|c: char| c.is_ascii_digit() || c == '.', "");
+    words(one) == words(other)
 }
 
 /// What a worker said.
@@ -99,14 +115,12 @@ fn watch(target: Target, seed: u64, indices: Range<u64>, time: Duration, trace: 
 /// Makes the input smaller and writes it to the corpus.
 fn keep(target: Target, seed: u64, index: u64) -> io::Result<PathBuf> {
     let notation = target.notation();
-    let input = input(&Corpus::read(notation)?, seed, index);
-    let extension = match notation {
-        Notation::Hsml => "hsml",
-        Notation::Xml => "xml",
-    };
-    let folder = root().join("tests/fuzz").join(extension);
-    std::fs::create_dir_all(&folder)?;
-    let file = folder.join(format!("{}-{seed}-{index}.{extension}", target.name()));
+    let corpus = Corpus::read(notation)?;
+    let input = input(&corpus, seed, index);
+    if let Some((file, _)) = corpus.broken.iter().find(|(_, text)| *text == input) {
+        return Ok(file.clone());
+    }
+    let file = notation.folder().join(format!("{}-{seed}-{index}.{}", target.name(), notation.extension()));
     std::fs::write(&file, &input)?;
     let smaller = minimise(target, input)?;
     std::fs::write(&file, smaller)?;

@@ -11,11 +11,27 @@ pub(crate) enum Notation {
     Xml,
 }
 
+impl Notation {
+    pub(crate) fn extension(self) -> &'static str {
+        match self {
+            Notation::Hsml => "hsml",
+            Notation::Xml => "xml",
+        }
+    }
+
+    /// Where what once broke something is kept.
+    pub(crate) fn folder(self) -> PathBuf {
+        root().join("tests/fuzz").join(self.extension())
+    }
+}
+
 /// Texts and the words they are made of.
 pub(crate) struct Corpus {
     pub(crate) notation: Notation,
-    /// The files as they are.
+    /// The models of the repository as they are.
     pub(crate) files: Vec<Vec<u8>>,
+    /// What once broke something; it has no part in mutations, so that these do not change when it grows.
+    pub(crate) broken: Vec<(PathBuf, Vec<u8>)>,
     /// Files and blocks of them; a mutation starts from one of these.
     pub(crate) pieces: Vec<Vec<u8>>,
     /// Every word and symbol of the files, and troublesome ones.
@@ -23,8 +39,7 @@ pub(crate) struct Corpus {
 }
 
 /// Folders with models, relative to the root of the repository.
-const FOLDERS: [&str; 7] = [
-    "tests/fuzz",
+const FOLDERS: [&str; 6] = [
     "tests/suite",
     "tests/reference/xmllint",
     "examples",
@@ -143,10 +158,7 @@ impl Corpus {
     /// # Errors
     /// A folder or file cannot be read.
     pub(crate) fn read(notation: Notation) -> io::Result<Self> {
-        let extension = match notation {
-            Notation::Hsml => "hsml",
-            Notation::Xml => "xml",
-        };
+        let extension = notation.extension();
         let mut files = Vec::new();
         for path in FOLDERS.iter().map(|folder| root().join(folder)).filter(|folder| folder.exists()) {
             for path in files_below(&path)? {
@@ -158,7 +170,12 @@ impl Corpus {
                 }
             }
         }
-        Ok(Corpus::new(notation, files))
+        let mut corpus = Corpus::new(notation, files);
+        for path in files_below(&notation.folder())? {
+            let text = fs::read(&path)?;
+            corpus.broken.push((path, text));
+        }
+        Ok(corpus)
     }
 
     /// A corpus of these files.
@@ -176,7 +193,7 @@ impl Corpus {
             Notation::Hsml => files.iter().flat_map(|file| hsml_pieces(file)).collect(),
             Notation::Xml => files.clone(),
         };
-        Corpus { notation, files, pieces, words: words.into_iter().collect() }
+        Corpus { notation, files, pieces, broken: Vec::new(), words: words.into_iter().collect() }
     }
 }
 
@@ -245,6 +262,7 @@ fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// The root of the repository.
-pub(crate) fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_owned()
 }

@@ -23,7 +23,8 @@ use target::Target;
 
 const USAGE: &str =
     "cargo xtask fuzz [--inputs N] [--seconds S] [--seed K] [--from I] [hsml|xml|hsml-model|xml-model]…
-cargo xtask fuzz --check TARGET FILE";
+cargo xtask fuzz --check TARGET FILE
+cargo xtask fuzz --print TARGET SEED INDEX";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
     let done = match words.as_slice() {
         ["--worker", target, numbers @ ..] => work(target, numbers),
         ["--check", target, file] => check(target, file),
+        ["--print", target, seed, index] => print(target, seed, index),
         _ => run(&words),
     };
     match done {
@@ -74,7 +76,10 @@ fn run(words: &[&str]) -> io::Result<bool> {
         say(&format!("{name}, seed {seed}: {}", tally.summary()));
         for find in &finds {
             let file = find.file.display();
-            say(&format!("{name}: input {} of seed {seed}: {}", find.index, find.cause));
+            say(&format!(
+                "{name}: input {} of seed {seed}: {} ({} times)",
+                find.index, find.cause, find.times
+            ));
             say(&format!("  made smaller: {file}\n  cargo xtask fuzz --check {name} {file}"));
         }
         survived &= finds.is_empty();
@@ -95,6 +100,14 @@ fn work(target: &str, numbers: &[&str]) -> io::Result<bool> {
 fn check(target: &str, file: &str) -> io::Result<bool> {
     let target = Target::named(target).ok_or_else(usage)?;
     worker::check_one(target, std::fs::read(file)?)
+}
+
+/// One input of a campaign, as it is.
+fn print(target: &str, seed: &str, index: &str) -> io::Result<bool> {
+    let target = Target::named(target).ok_or_else(usage)?;
+    let (Ok(seed), Ok(index)) = (seed.parse(), index.parse()) else { return Err(usage()) };
+    let input = mutate::input(&corpus::Corpus::read(target.notation())?, seed, index);
+    io::stdout().write_all(&input).map(|()| true)
 }
 
 fn usage() -> io::Error {

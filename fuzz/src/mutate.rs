@@ -2,6 +2,7 @@
 
 use crate::corpus::{Corpus, Notation, is_space, tokens};
 use crate::random::Random;
+use std::ops::Range;
 
 /// Longest input, in bytes.
 const LONGEST: usize = 100_000;
@@ -74,11 +75,19 @@ const STRANGE: &[&str] =
 const INVALID: &[&[u8]] =
     &[b"\xff", b"\xc0\x80", b"\xed\xa0\x80", b"\xe2\x82", b"\xf0\x9f\x98", b"\x80", b"\xfe\xff"];
 
+/// The indices of what once broke something: the last ones.
+pub(crate) fn broken(corpus: &Corpus) -> Range<u64> {
+    u64::MAX - corpus.broken.len() as u64..u64::MAX
+}
+
 /// Input `index` of the campaign `seed`. The first inputs are the files of the corpus as they are.
 pub(crate) fn input(corpus: &Corpus, seed: u64, index: u64) -> Vec<u8> {
-    let file = usize::try_from(index).ok().and_then(|index| corpus.files.get(index));
-    if let Some(file) = file {
+    let place = |index: u64| usize::try_from(index).unwrap_or(usize::MAX);
+    if let Some(file) = corpus.files.get(place(index)) {
         return file.clone();
+    }
+    if let Some((_, text)) = corpus.broken.get(place(u64::MAX - 1 - index)) {
+        return text.clone();
     }
     let mut random = Random::new(seed, index);
     let mut text = if random.once_in(12) { soup(corpus, &mut random) } else { mutant(corpus, &mut random) };

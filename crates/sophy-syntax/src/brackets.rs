@@ -1,22 +1,22 @@
-use crate::error::{SyntaxError, codes};
+use crate::error::{Errors, SyntaxError, codes};
 use crate::kinds::SyntaxKind;
 use crate::lexer::{Mode, Token, unknown};
 use std::ops::Range;
 
 /// Reports brackets without partner; one that closes nothing becomes trivia.
 ///
-/// Returns for each token the first from it on that ends a statement: in a file, brackets do not reach beyond.
+/// Returns the tokens that end a statement, in order: in a file, brackets do not reach beyond.
 pub(crate) fn match_brackets(
     text: &str,
     mode: Mode,
     tokens: &mut [Token],
-    errors: &mut Vec<SyntaxError>,
+    errors: &mut Errors,
 ) -> Vec<usize> {
     let mut open: Vec<(SyntaxKind, Range<usize>)> = Vec::new();
     let mut first: Option<Range<usize>> = None;
     let mut ends = Vec::new();
     for index in 0..tokens.len() {
-        let (kind, range) = (tokens[index].kind, tokens[index].range.clone());
+        let (kind, range) = (tokens[index].kind, tokens[index].range());
         if kind.is_trivia() {
             continue;
         }
@@ -52,16 +52,7 @@ pub(crate) fn match_brackets(
         }
     }
     unclosed(text, open.drain(..), errors);
-    let mut next = tokens.len();
-    let mut statement_ends = vec![next; tokens.len()];
-    for (index, end) in statement_ends.iter_mut().enumerate().rev() {
-        if ends.last() == Some(&index) {
-            next = index;
-            ends.pop();
-        }
-        *end = next;
-    }
-    statement_ends
+    ends
 }
 
 /// `;` and the words that cannot be part of an expression.
@@ -112,11 +103,7 @@ fn unmatched(text: &str, range: Range<usize>, first: Range<usize>) -> SyntaxErro
         .help(format!("delete it{before}"))
 }
 
-fn unclosed(
-    text: &str,
-    mut open: impl Iterator<Item = (SyntaxKind, Range<usize>)>,
-    errors: &mut Vec<SyntaxError>,
-) {
+fn unclosed(text: &str, mut open: impl Iterator<Item = (SyntaxKind, Range<usize>)>, errors: &mut Errors) {
     let Some((kind, range)) = open.next() else { return };
     let closing = match kind {
         SyntaxKind::LeftBracket => ']',

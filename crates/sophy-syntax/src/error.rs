@@ -22,13 +22,58 @@ impl SyntaxError {
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
+        self.helps.reserve_exact(1);
         self.helps.push(help.into());
         self
     }
 
     pub(crate) fn related(mut self, range: Range<usize>, message: impl Into<String>) -> Self {
+        self.related.reserve_exact(1);
         self.related.push((range, message.into()));
         self
+    }
+}
+
+/// The mistakes of a text: not more than anybody reads, and none longer than that. What is kept so stays in proportion
+/// to the text, whatever it is.
+#[derive(Default)]
+pub(crate) struct Errors(Vec<SyntaxError>);
+
+impl Errors {
+    /// After so many mistakes of a text the others are not reported.
+    const MOST: usize = 500;
+
+    pub(crate) fn push(&mut self, mut error: SyntaxError) {
+        if self.0.len() < Self::MOST {
+            shorten(&mut error.message);
+            error.helps.iter_mut().for_each(shorten);
+            self.0.push(error);
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &SyntaxError> {
+        self.0.iter()
+    }
+
+    /// The mistakes in the order of their places.
+    pub(crate) fn sorted(mut self) -> Vec<SyntaxError> {
+        self.0.sort_by_key(|error| (error.range.start, error.range.end));
+        self.0
+    }
+}
+
+/// Leaves out the middle of a message that quotes too much of the text.
+fn shorten(text: &mut String) {
+    const HEAD: usize = 300;
+    const TAIL: usize = 60;
+    if text.len() > 2 * (HEAD + TAIL) {
+        let head = text.floor_char_boundary(HEAD);
+        let tail = text.ceil_char_boundary(text.len() - TAIL);
+        *text = format!("{}…{}", &text[..head], &text[tail..]);
     }
 }
 
@@ -85,4 +130,26 @@ pub(crate) mod codes {
     pub(crate) const EQUALITY: Code = Code("HS0021");
     pub(crate) const COMPARISON_IN_EQUATION: Code = Code("HS0022");
     pub(crate) const LEFT_SIDE: Code = Code("HS0023");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parse_expression;
+
+    #[test]
+    fn what_is_reported_has_an_end() {
+        let characters = "§ a ".repeat(10_000);
+        let parse = parse_expression(&characters);
+        assert_eq!(parse.errors().len(), Errors::MOST);
+        assert_eq!(parse.errors()[1].range, "§ a ".len().."§ a §".len());
+
+        let name = "é".repeat(10_000);
+        let text = format!("{name} b");
+        let parse = parse_expression(&text);
+        let [error] = parse.errors() else { unreachable!("{:?}", parse.errors()) };
+        assert!(error.message.starts_with("an operator is missing between `éé"), "{}", error.message);
+        assert!(error.message.ends_with("é` and `b`"), "{}", error.message);
+        assert!(error.message.len() < 400 && error.helps[0].len() < 400);
+    }
 }

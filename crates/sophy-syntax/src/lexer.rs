@@ -1,4 +1,4 @@
-use crate::error::{SyntaxError, codes};
+use crate::error::{Errors, SyntaxError, codes};
 use crate::kinds::SyntaxKind;
 use logos::Logos;
 use std::ops::Range;
@@ -7,7 +7,20 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct Token {
     pub(crate) kind: SyntaxKind,
-    pub(crate) range: Range<usize>,
+    start: u32,
+    end: u32,
+}
+
+impl Token {
+    /// Trees count in 32 bits, too.
+    fn new(kind: SyntaxKind, range: Range<usize>) -> Self {
+        let narrow = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
+        Token { kind, start: narrow(range.start), end: narrow(range.end) }
+    }
+
+    pub(crate) fn range(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
 }
 
 /// What a text is.
@@ -20,18 +33,18 @@ pub(crate) enum Mode {
 }
 
 /// The tokens of `text`, without a gap, and what is wrong with their spelling.
-pub(crate) fn lex(text: &str, mode: Mode) -> (Vec<Token>, Vec<SyntaxError>) {
+pub(crate) fn lex(text: &str, mode: Mode) -> (Vec<Token>, Errors) {
     let mut tokens: Vec<Token> = Vec::new();
-    let mut errors = Vec::new();
+    let mut errors = Errors::default();
     for (result, range) in SyntaxKind::lexer(text).spanned() {
         let kind = in_mode(result.unwrap_or(SyntaxKind::Unknown), &text[range.clone()], mode);
         if kind == SyntaxKind::Unknown
             && let Some(last) = tokens.last_mut()
             && last.kind == SyntaxKind::Unknown
         {
-            last.range.end = range.end; // a run of strange characters is one mistake
+            *last = Token::new(kind, last.range().start..range.end); // a run of strange characters is one mistake
         } else {
-            tokens.push(Token { kind, range });
+            tokens.push(Token::new(kind, range));
             if mode == Mode::File {
                 join_hyphenated(text, &mut tokens);
             }
@@ -41,7 +54,9 @@ pub(crate) fn lex(text: &str, mode: Mode) -> (Vec<Token>, Vec<SyntaxError>) {
         words_in_place(&mut tokens);
     }
     for token in &tokens {
-        errors.extend(misspelling(token.kind, &text[token.range.clone()], &token.range, mode));
+        if let Some(error) = misspelling(token.kind, &text[token.range()], &token.range(), mode) {
+            errors.push(error);
+        }
     }
     (tokens, errors)
 }
@@ -88,12 +103,12 @@ fn join_hyphenated(text: &str, tokens: &mut Vec<Token>) {
     let [.., first, minus, to, other, last] = tokens.as_slice() else { return };
     let parts = [first, minus, to, other, last].map(|token| token.kind);
     use SyntaxKind::{Minus, Name};
-    let range = first.range.start..last.range.end;
+    let range = first.range().start..last.range().end;
     if parts == [Name, Minus, Name, Minus, Name]
         && let Some(kind) = SyntaxKind::of_word(&text[range.clone()])
     {
         tokens.truncate(tokens.len() - 5);
-        tokens.push(Token { kind, range });
+        tokens.push(Token::new(kind, range));
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::brackets::match_brackets;
-use crate::error::{SyntaxError, codes};
+use crate::error::{Errors, SyntaxError, codes};
 use crate::grammar::blocks::Block;
 use crate::kinds::{Sophy, SyntaxKind};
 use crate::lexer::{Mode, Token, lex};
@@ -22,14 +22,14 @@ pub(crate) struct Parser<'t> {
     text: &'t str,
     mode: Mode,
     tokens: Vec<Token>,
-    /// For each token the first from it on that ends a statement.
+    /// The tokens that end a statement, in order.
     statement_ends: Vec<usize>,
     /// The grammar does not see this token and those after it.
     fence: usize,
     /// The first token not yet in the tree; trivia before [`Parser::current`] stay behind it.
     position: usize,
     builder: GreenNodeBuilder<'static>,
-    errors: Vec<SyntaxError>,
+    errors: Errors,
     /// Where the lexer and the matching of brackets found mistakes, in order.
     lexical: Vec<usize>,
     /// The start of the item being read, and how many mistakes were known then.
@@ -47,6 +47,7 @@ pub(crate) struct Parser<'t> {
 impl<'t> Parser<'t> {
     pub(crate) fn new(text: &'t str, mode: Mode) -> Self {
         let (mut tokens, mut errors) = lex(text, mode);
+        tokens.shrink_to_fit();
         let statement_ends = match_brackets(text, mode, &mut tokens, &mut errors);
         let mut lexical: Vec<usize> = errors.iter().map(|error| error.range.start).collect();
         lexical.sort_unstable();
@@ -69,9 +70,8 @@ impl<'t> Parser<'t> {
         }
     }
 
-    pub(crate) fn finish(mut self) -> Parse {
-        self.errors.sort_by_key(|error| (error.range.start, error.range.end));
-        Parse::new(self.builder.finish(), self.errors)
+    pub(crate) fn finish(self) -> Parse {
+        Parse::new(self.builder.finish(), self.errors.sorted())
     }
 
     /// The token the grammar is at.
@@ -87,7 +87,7 @@ impl<'t> Parser<'t> {
     /// Bytes of the current token; empty at the end.
     pub(crate) fn range(&self) -> Range<usize> {
         match self.tokens.get(self.significant(self.position)) {
-            Some(token) => token.range.clone(),
+            Some(token) => token.range(),
             None => self.text.len()..self.text.len(),
         }
     }
@@ -152,7 +152,7 @@ impl<'t> Parser<'t> {
     /// Runs `grammar`, to which the text ends where the statement does.
     pub(crate) fn fenced(&mut self, grammar: impl FnOnce(&mut Self)) {
         let here = self.significant(self.position);
-        let end = self.statement_ends.get(here).copied().unwrap_or(self.fence);
+        let end = self.statement_end(here).unwrap_or(self.fence);
         let (fence, muted) = (self.fence, self.muted);
         self.fence = end.min(fence);
         grammar(self);
@@ -193,7 +193,7 @@ impl<'t> Parser<'t> {
             .iter()
             .rev()
             .take_while(|token| token.kind.is_trivia())
-            .any(|token| self.text_of(token.range.clone()).contains('\n'))
+            .any(|token| self.text_of(token.range()).contains('\n'))
     }
 
     /// Whether a line ends between the current token and the next.
@@ -202,7 +202,7 @@ impl<'t> Parser<'t> {
         let next = self.significant(here);
         self.tokens
             .get(here..next)
-            .is_some_and(|trivia| trivia.iter().any(|t| self.text_of(t.range.clone()).contains('\n')))
+            .is_some_and(|trivia| trivia.iter().any(|t| self.text_of(t.range()).contains('\n')))
     }
 
     /// The text of the current token.
@@ -221,7 +221,7 @@ impl<'t> Parser<'t> {
         for _ in 0..ahead {
             index = self.significant(index + 1);
         }
-        let text = self.tokens.get(index).map_or("", |token| self.text_of(token.range.clone()));
+        let text = self.tokens.get(index).map_or("", |token| self.text_of(token.range()));
         (self.kind_at(index), text)
     }
 
@@ -258,13 +258,13 @@ impl<'t> Parser<'t> {
             }
             depth == 0 && token.kind == K::Equal
         });
-        found.map(|token| token.range.clone())
+        found.map(Token::range)
     }
 
     /// Whether a token of `kind` comes before the statement ends, or ends it.
     pub(crate) fn comes(&self, kind: SyntaxKind) -> bool {
         let here = self.significant(self.position);
-        let end = self.statement_ends.get(here).copied().unwrap_or(here);
+        let end = self.statement_end(here).unwrap_or(here);
         self.tokens.get(here..=end).is_some_and(|tokens| tokens.iter().any(|token| token.kind == kind))
     }
 
@@ -275,7 +275,7 @@ impl<'t> Parser<'t> {
 
     /// The end of what was read.
     pub(crate) fn end_of_previous(&self) -> usize {
-        self.previous().map_or(0, |token| token.range.end)
+        self.previous().map_or(0, |token| token.range().end)
     }
 
     /// Begins an item, in which [`Parser::error`] reports one mistake.
@@ -300,8 +300,8 @@ impl<'t> Parser<'t> {
     fn item_has_errors(&self) -> bool {
         let (start, known) = self.item;
         let here = self.significant(self.position);
-        let statement_end = self.statement_ends.get(here).and_then(|&end| self.tokens.get(end));
-        let end = statement_end.map_or(self.text.len(), |token| token.range.end);
+        let statement_end = self.statement_end(here).and_then(|end| self.tokens.get(end));
+        let end = statement_end.map_or(self.text.len(), |token| token.range().end);
         let at = self.lexical.partition_point(|&place| place < start);
         self.errors.len() != known || self.lexical.get(at).is_some_and(|&place| place < end)
     }
@@ -351,6 +351,13 @@ impl<'t> Parser<'t> {
         self.muted = true;
     }
 
+    /// The first token from `here` on that ends a statement, or the end of the text.
+    fn statement_end(&self, here: usize) -> Option<usize> {
+        let next = self.statement_ends.partition_point(|&end| end < here);
+        let end = self.statement_ends.get(next).copied().unwrap_or(self.tokens.len());
+        (here < self.tokens.len()).then_some(end)
+    }
+
     fn kind_at(&self, index: usize) -> SyntaxKind {
         match self.tokens.get(index) {
             Some(token) if index < self.fence => token.kind,
@@ -374,7 +381,7 @@ impl<'t> Parser<'t> {
 
     fn take(&mut self) {
         if let Some(token) = self.tokens.get(self.position) {
-            self.builder.token(Sophy::kind_to_raw(token.kind), &self.text[token.range.clone()]);
+            self.builder.token(Sophy::kind_to_raw(token.kind), &self.text[token.range()]);
             self.position += 1;
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! What a fenced block says after its first word tells what is done with it:
 //!
-//! - `xml model`: a whole model. A `text diagnostics` block after it holds its messages, as `sophy check` shows
+//! - `xml model`, `hsml`: a whole model. A `text diagnostics` block after it holds its messages, as `sophy check` shows
 //!   them; without one it must have none.
 //! - `diff FILE`: a change of a file of the repository, checked in the same way.
 //! - `expression`: lines `text => value` or `text => error CODE`, evaluated in [`expression_model`].
@@ -11,7 +11,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 use sophy::{
-    Experiment, FileWorld, Loaded, MemoryWorld, Style, load_experiment, load_model, render, simulate,
+    Experiment, FileWorld, Loaded, MemoryWorld, Root, Style, load_as, load_experiment, load_model, render,
+    simulate,
 };
 use std::collections::BTreeMap;
 use std::fs;
@@ -33,15 +34,20 @@ fn models_have_the_messages_the_book_shows() {
     for (position, block) in blocks.iter().enumerate() {
         let (name, text) = match words(block).as_slice() {
             ["xml", "model"] => ("model.xml".to_owned(), block.text.clone()),
+            ["hsml"] => ("model.hsml".to_owned(), block.text.clone()),
             ["diff", file] => ((*file).to_owned(), changed(&read(file), block)),
             _ => continue,
         };
         let expected = blocks.get(position + 1).filter(|next| words(next) == ["text", "diagnostics"]);
-        let found = messages(&load_model(&MemoryWorld::default().with(&name, text), Path::new(&name)));
+        let world = MemoryWorld::default().with(&name, text);
+        let mut loaded = load_as(&world, Path::new(&name), Root::IfClear);
+        let composition = sophy::check(&loaded);
+        loaded.diagnostics.extend(composition);
+        let found = messages(&loaded);
         assert_eq!(found.trim_end(), expected.map_or("", |block| block.text.trim_end()), "{}", block.place);
         checked += 1;
     }
-    assert!(checked >= 3, "only {checked} models were found");
+    assert!(checked >= 30, "only {checked} models were found");
 }
 
 #[test]

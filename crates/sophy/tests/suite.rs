@@ -134,7 +134,7 @@ fn run(path: &Path) -> Result<(), String> {
     let loaded = load(path, &expected);
     let found = messages(&loaded);
     let Some(model) = loaded.model.filter(|_| found.is_empty()) else { return wrong(format!("{found:#?}")) };
-    let quantum = QuantumRule { pattern: "*".to_owned(), quantum: Quantum::Absolute(expected.quantum) };
+    let quantum = QuantumRule { pattern: "*".to_owned(), quantum: Quantum::absolute(expected.quantum) };
     let experiment = Experiment {
         stop: expected.stop,
         method: Method::Qss2,

@@ -18,6 +18,13 @@ pub(crate) fn diagnostic(name: &str, span: Span, what: &str) -> Diagnostic {
         .help("rename it, if only for the reader's sake")
 }
 
+/// A loop variable has the name of something else.
+pub(crate) fn declared(name: &str, span: Span, what: &str, hidden: Span) -> Diagnostic {
+    Diagnostic::warning(CODE, span, format!("the loop variable `{name}` hides {what} of that name"))
+        .label(hidden, "hidden within the loop")
+        .help("give the loop variable another name")
+}
+
 #[cfg(test)]
 mod tests {
     use crate::testing::check;

@@ -51,6 +51,7 @@ pub(crate) mod hs0142_no_component;
 pub(crate) mod hs0143_local_without_equation;
 pub(crate) mod hs0144_flag_without_event;
 pub(crate) mod hs0145_constrained;
+pub(crate) mod hs0146_assigned_by_two;
 pub(crate) mod hs0201_unknown_function;
 pub(crate) mod hs0202_wrong_number_of_arguments;
 pub(crate) mod hs0203_number_as_condition;
@@ -77,6 +78,7 @@ pub(crate) mod hs0303_algebraic_loop;
 pub(crate) mod hs0304_too_large;
 pub(crate) mod hs0401_constant_guard;
 pub(crate) mod hs0402_taken_on_entry;
+pub(crate) mod hs0403_round_without_time;
 pub(crate) mod hs0410_unknown_port;
 pub(crate) mod hs0411_connection_direction;
 pub(crate) mod hs0412_connected_units;
@@ -139,6 +141,7 @@ pub const CODES: &[(Code, &str)] = &[
     (hs0143_local_without_equation::CODE, "a local, flag or output has no equation"),
     (hs0144_flag_without_event::CODE, "nothing listens to a flag"),
     (hs0145_constrained::CODE, "more constraints than unknowns"),
+    (hs0146_assigned_by_two::CODE, "a variable may be assigned twice at one instant"),
     (hs0201_unknown_function::CODE, "something is called that is not a function"),
     (hs0202_wrong_number_of_arguments::CODE, "a function is called with the wrong number of arguments"),
     (hs0203_number_as_condition::CODE, "a number stands where a condition is needed"),
@@ -165,6 +168,7 @@ pub const CODES: &[(Code, &str)] = &[
     (hs0304_too_large::CODE, "functions multiply the model beyond bounds"),
     (hs0401_constant_guard::CODE, "a guard is always true or always false"),
     (hs0402_taken_on_entry::CODE, "a transition is taken the instant its location is entered"),
+    (hs0403_round_without_time::CODE, "transitions lead round in a circle without time passing"),
     (hs0410_unknown_port::CODE, "a connection to a port or component that does not exist"),
     (hs0411_connection_direction::CODE, "a connection against the direction of its ports"),
     (hs0412_connected_units::CODE, "connected quantities have different units"),

@@ -207,16 +207,40 @@ impl<'a> Builder<'_, 'a> {
             emits: true,
             holds: self.declaration.dialect == Dialect::Hsml,
         };
-        let actions = self.actions(&written.actions, setting);
+        let mut actions = self.actions(&written.actions, setting);
         let is_destination = |l: &LocationDeclaration| l.name.value == written.destination.value;
+        let destination = self.declaration.locations.iter().position(is_destination);
+        if let Some(entered) = destination.and_then(|position| self.declaration.locations.get(position)) {
+            self.start_anew(entered, &mut actions);
+        }
         let fallback = self.component_priority();
         BuiltTransition {
             declaration: written,
             guard,
             trigger,
-            destination: self.declaration.locations.iter().position(is_destination),
+            destination,
             actions,
             priority: self.whole_number(written.priority.as_ref(), "a priority", fallback),
+        }
+    }
+
+    /// What exists in a location only has its declared value on entry, unless the transition assigns it.
+    fn start_anew(&mut self, entered: &LocationDeclaration, actions: &mut Actions) {
+        for variable in &entered.variables {
+            let declared = self.symbols.declared(&variable.name.value).map(|symbol| &symbol.value);
+            let Some(SymbolValue::Variable(symbol)) = declared else { continue };
+            for k in 0..symbol.shape.len() as u32 {
+                let id = VariableId(symbol.first.0 + k);
+                let start = match self.variables[id.0 as usize].kind {
+                    VariableKind::State(start) | VariableKind::Mode(start) => start,
+                    _ => None,
+                };
+                let is_assigned = actions.assignments.iter().any(|assignment| assignment.variable == id);
+                if let (Some(right), false) = (start, is_assigned) {
+                    let span = Some(variable.name.span);
+                    actions.assignments.push(Assignment { variable: id, right, span });
+                }
+            }
         }
     }
 

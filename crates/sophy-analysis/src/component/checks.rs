@@ -10,13 +10,14 @@ use crate::checks::{
     hs0116_unreachable_location, hs0117_hidden_name, hs0118_unused, hs0119_no_location,
     hs0127_declaration_for_another_kind, hs0143_local_without_equation, hs0144_flag_without_event,
     hs0201_unknown_function, hs0206_natural_logarithm, hs0401_constant_guard, hs0402_taken_on_entry,
+    hs0403_round_without_time,
 };
 use crate::declarations::{
     ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration,
 };
 use crate::lower::{SymbolKind, SymbolValue};
 use sophy_diagnostics::{Diagnostics, Span};
-use sophy_ir::{EventSection, VariableId, VariableKind};
+use sophy_ir::{Actions, EventSection, NodeId, Rule, VariableId, VariableKind};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Something that is defined or assigned although it cannot be.
@@ -146,6 +147,7 @@ impl Builder<'_, '_> {
         hs0116_unreachable_location::find(declaration, locations, &self.graph, &mut found);
         hs0401_constant_guard::find(locations, &self.graph, &mut found);
         hs0402_taken_on_entry::find(declaration, locations, &mut self.graph, &mut found);
+        hs0403_round_without_time::find(locations, &self.graph, &mut found);
         self.shared.findings.report_all(found);
         if declaration.dialect == Dialect::Xml && declaration.locations.is_empty() {
             self.report(hs0119_no_location::diagnostic(&declaration.name.value, declaration.name.span));
@@ -164,6 +166,52 @@ impl Builder<'_, '_> {
                 let (name, span) = (variable.name.clone(), variable.span.unwrap_or(declaration.name.span));
                 self.report(hs0144_flag_without_event::diagnostic(&name, span));
             }
+        }
+    }
+
+    /// Complains about actions of equal priority that can meet at an instant and assign one variable.
+    pub(crate) fn check_meetings(&mut self, locations: &[BuiltLocation<'_>], events: &[EventSection], rules: &[Rule]) {
+        /// What acts, with its priority; what has one number never acts together.
+        type Actor<'n> = (usize, i32, &'n Actions, Span);
+        let mut actors: Vec<Actor<'_>> = Vec::new();
+        for transition in locations.iter().flat_map(|location| &location.transitions) {
+            actors.push((0, transition.priority, &transition.actions, transition.declaration.name.span));
+        }
+        let mut group = 0;
+        for section in events {
+            group += 1;
+            for actions in section.rising.iter().chain(&section.falling) {
+                let span = section.span.unwrap_or(self.declaration.name.span);
+                actors.push((group, section.priority, actions, span));
+            }
+        }
+        for rule in rules.iter().filter(|rule| rule.delay.is_none()) {
+            group += 1;
+            actors.push((group, rule.priority, &rule.actions, rule.span.unwrap_or(self.declaration.name.span)));
+        }
+        let mut first: HashMap<(VariableId, i32), (usize, NodeId, Span)> = HashMap::new();
+        let mut found = Vec::new();
+        for (group, priority, actions, span) in actors {
+            for assignment in &actions.assignments {
+                let key = (assignment.variable, priority);
+                match first.get(&key) {
+                    Some(&(other, right, other_span)) if other != group => {
+                        let same_constant =
+                            right == assignment.right && self.graph.as_number(right).is_some();
+                        if !same_constant && other_span != span {
+                            let name = self.variables[assignment.variable.0 as usize].name.clone();
+                            found.push(hs0146_assigned_by_two::diagnostic(&name, other_span, span));
+                        }
+                    }
+                    Some(_) => {}
+                    None => {
+                        first.insert(key, (group, assignment.right, span));
+                    }
+                }
+            }
+        }
+        for diagnostic in found {
+            self.report(diagnostic);
         }
     }
 

@@ -1,7 +1,7 @@
 use super::builder::Builder;
 use super::checks::Stray;
 use crate::checks::{
-    hs0108_defined_twice, hs0111_output_differs_from_state, hs0129_not_defined_by_equations,
+    hs0108_defined_twice, hs0117_hidden_name, hs0111_output_differs_from_state, hs0129_not_defined_by_equations,
     hs0130_branches_differ, hs0131_loop_bounds,
 };
 use crate::declarations::{
@@ -87,6 +87,11 @@ impl<'a> Builder<'_, 'a> {
         }
         if to < from {
             self.report(hs0131_loop_bounds::empty(from, to, turns.from.span, turns.to.span));
+        }
+        let name = &turns.variable;
+        if let Some(hidden) = self.symbols.get(&name.value) {
+            let (kind, span) = (hidden.kind, hidden.span);
+            self.report(hs0117_hidden_name::declared(&name.value, name.span, kind.with_article(), span));
         }
         let errors = self.shared.findings.error_count();
         for value in from..=to {

@@ -59,6 +59,7 @@ pub(crate) fn build<'a>(
             let events = builder.event_sections();
             let rules = builder.rules();
             builder.check_automaton(&locations, &events);
+            builder.check_meetings(&locations, &events, &rules);
             builder.automaton(locations, initial, events, rules).map(Body::Automaton)
         }
     };

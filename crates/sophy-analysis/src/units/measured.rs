@@ -86,14 +86,6 @@ impl Measured {
         Number(Some(value))
     }
 
-    /// The unit, if there is one.
-    pub(crate) fn unit(self) -> Option<Unit> {
-        match self {
-            Known(unit) => Some(unit),
-            Unchecked | Number(_) => None,
-        }
-    }
-
     /// Where two values take one place: sum, difference, comparison, assignment, the branches of a condition,
     /// `min`, `max`, `hypot`, `mod`, `rem`, the limits of `sat`.
     ///
@@ -179,14 +171,6 @@ impl Measured {
     /// The units do not fit.
     pub(crate) fn atan2(self, other: Measured) -> Result<Measured, Mismatch> {
         self.agree(other).map(Measured::without_unit)
-    }
-
-    /// `sat(x, low, high)`: like `x`.
-    ///
-    /// # Errors
-    /// A limit does not fit.
-    pub(crate) fn saturated(self, low: Measured, high: Measured) -> Result<Measured, Mismatch> {
-        self.agree(low)?.agree(high)
     }
 
     /// The derivative with respect to time.
@@ -390,8 +374,6 @@ mod tests {
         assert_eq!(literal(1.0).binary(Add, literal(3.0)), Ok(literal(4.0)));
         assert_eq!(known("m").binary(Divide, known("s")), Ok(known("m/s")));
         assert_eq!(known("m").binary(Multiply, Unchecked), Ok(Unchecked));
-        assert_eq!(known("m").saturated(literal(0.0), known("m")), Ok(known("m")));
-        assert!(known("m").saturated(literal(0.0), known("s")).is_err());
     }
 
     #[test]

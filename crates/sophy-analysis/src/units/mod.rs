@@ -17,5 +17,5 @@ mod unit;
 pub(crate) use dimension::Dimension;
 pub(crate) use display::conversion;
 pub(crate) use measured::{Measured, Mismatch};
-pub(crate) use parse::{Note, NoteKind, ParsedUnit, UnitError, UnitErrorKind, parse};
+pub(crate) use parse::{UnitError, parse};
 pub(crate) use unit::Unit;

@@ -13,7 +13,7 @@ pub(crate) fn new(arguments: &New, terminal: &Terminal) -> Exit {
         return Exit::WrongUse;
     }
     let text = template(*kind).replace(PLACEHOLDER, name);
-    let Some(path) = output else {
+    let Some(path) = output.as_ref().filter(|path| path.as_os_str() != "-") else {
         terminal.answer(&text, &json!({ "kind": "new", "text": text }));
         return Exit::Done;
     };

@@ -7,6 +7,7 @@ mod endings;
 mod explain;
 mod languages;
 mod layout;
+mod info;
 mod messages;
 mod results;
 mod support;

@@ -316,6 +316,12 @@ impl Layers {
         position
     }
 
+    /// The rank of the other end of a hop.
+    pub(super) fn other_rank(&self, hop: usize, cell: usize) -> usize {
+        let hop = &self.hops[hop];
+        self.cells[if hop.from == cell { hop.to } else { hop.from }].rank
+    }
+
     /// How far from its middle a hop meets a cell, as a share of its height.
     fn share(&self, hop: &Hop, cell: usize) -> f64 {
         let offset = if cell == hop.from { hop.from_offset } else { hop.to_offset };

@@ -1,68 +1,96 @@
 //! Heights of cells: as near to what they are connected with as their order and their sizes allow.
 
-use super::layers::{Item, Layers};
+use super::layers::{Flow, Item, Layers};
 
 /// Room between two boxes, two arrows, and an arrow and a box that stand one above the other, px.
 const BOX_GAP: f64 = 26.0;
 const LANE_GAP: f64 = 14.0;
 const SWEEPS: usize = 60;
+/// Rounds in which labels and ends of arrows settle.
+const ROUNDS: usize = 12;
 
 /// The height of the middle of every cell, px, downwards; the highest top is at 0.
 ///
 /// Rank after rank is moved to the mean of what its cells are connected with: the least squares under the condition
-/// that neighbours keep their distance, by pooling adjacent violators. `items`: how many cells are items.
-pub(super) fn heights(layers: &Layers, items: usize) -> Vec<f64> {
-    let mut y = stacked(layers, items);
-    // Per cell: (other cell, by how much its height differs if the arrow is straight, weight).
-    let mut pulls: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); y.len()];
-    for hop in &layers.hops {
-        let (a, b) = (hop.from, hop.to);
-        if layers.cells[a].rank == layers.cells[b].rank {
-            continue;
-        }
-        let weight = f64::from(1 + u8::from(a >= items) + u8::from(b >= items));
-        let straight = hop.from_offset - hop.to_offset;
-        pulls[b].push((a, straight, weight));
-        pulls[a].push((b, -straight, weight));
-    }
+/// that neighbours keep their distance, by pooling adjacent violators. Where arrows may end anywhere, their ends are
+/// then moved along the sides of the items, too.
+pub(super) fn heights(layers: &mut Layers, items: &[Item], flow: Flow) -> Vec<f64> {
+    let mut y = stacked(layers, items.len());
+    let connected = connected(layers);
     for sweep in 0..SWEEPS {
-        for step in 0..layers.ranks.len() {
-            let rank = if sweep % 2 == 0 { step } else { layers.ranks.len() - 1 - step };
-            let wanted = layers.ranks[rank].iter().map(|&cell| {
-                let weight: f64 = pulls[cell].iter().map(|pull| pull.2).sum();
-                let sum: f64 = pulls[cell].iter().map(|&(other, by, weight)| weight * (y[other] + by)).sum();
-                if weight > 0.0 { (sum / weight, weight) } else { (y[cell], IDLE) }
-            });
-            let wanted: Vec<(f64, f64)> = wanted.collect();
-            settle(layers, items, rank, &wanted, &mut y);
-        }
+        relax(layers, items.len(), &connected, sweep % 2 == 0, true, &mut y);
     }
-    // The items stay; what passes through follows the arrow, so that it is straight where it can be.
-    for (rank, cells) in layers.ranks.iter().enumerate() {
-        let follow = |cell: usize| {
-            pulls[cell]
-                .iter()
-                .filter(|&&(other, ..)| layers.cells[other].rank < rank)
-                .map(|p| y[p.0] + p.1)
-                .next()
+    for round in 0..ROUNDS {
+        if flow == Flow::Around {
+            straighten(layers, items, &y);
+        }
+        relax(layers, items.len(), &connected, round % 2 == 0, false, &mut y);
+    }
+    // At last what passes through follows the arrow from the left, so that it is straight where it can be.
+    for rank in 0..layers.ranks.len() {
+        let from_left = |cell: usize| connected[cell].iter().find(|&&hop| layers.other_rank(hop, cell) < rank);
+        let wanted = |&cell: &usize| match from_left(cell) {
+            Some(&hop) if cell >= items.len() => (straight(layers, hop, cell, &y), 1.0),
+            _ => (y[cell], STAYS),
         };
-        let wanted: Vec<(f64, f64)> = cells
-            .iter()
-            .map(|&cell| match follow(cell) {
-                Some(height) if cell >= items => (height, 1.0),
-                _ => (y[cell], STAYS),
-            })
-            .collect();
-        settle(layers, items, rank, &wanted, &mut y);
+        let wanted: Vec<(f64, f64)> = layers.ranks[rank].iter().map(wanted).collect();
+        settle(layers, items.len(), rank, &wanted, &mut y);
+    }
+    if flow == Flow::Around {
+        straighten(layers, items, &y);
     }
     let top = layers.cells.iter().zip(&y).map(|(cell, y)| y - cell.up).fold(f64::INFINITY, f64::min);
     y.iter_mut().for_each(|y| *y -= top);
     y
 }
 
+/// The hops of every cell that lead to other ranks.
+fn connected(layers: &Layers) -> Vec<Vec<usize>> {
+    let mut connected: Vec<Vec<usize>> = vec![Vec::new(); layers.cells.len()];
+    for (number, hop) in layers.hops.iter().enumerate() {
+        if layers.cells[hop.from].rank != layers.cells[hop.to].rank {
+            connected[hop.from].push(number);
+            connected[hop.to].push(number);
+        }
+    }
+    connected
+}
+
+/// The height of a cell at which a hop is straight.
+fn straight(layers: &Layers, hop: usize, cell: usize, y: &[f64]) -> f64 {
+    let hop = &layers.hops[hop];
+    if cell == hop.to {
+        y[hop.from] + hop.from_offset - hop.to_offset
+    } else {
+        y[hop.to] + hop.to_offset - hop.from_offset
+    }
+}
+
+/// Moves all cells, or only those that arrows pass through, towards what they are connected with.
+fn relax(layers: &Layers, items: usize, connected: &[Vec<usize>], rightwards: bool, all: bool, y: &mut [f64]) {
+    for step in 0..layers.ranks.len() {
+        let rank = if rightwards { step } else { layers.ranks.len() - 1 - step };
+        let wanted = |&cell: &usize| {
+            if !all && cell < items {
+                return (y[cell], STAYS);
+            }
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for &hop in &connected[cell] {
+                let (from, to) = (layers.hops[hop].from, layers.hops[hop].to);
+                let weight = f64::from(1 + u8::from(from >= items) + u8::from(to >= items));
+                sum += weight * straight(layers, hop, cell, y);
+                weights += weight;
+            }
+            if weights > 0.0 { (sum / weights, weights) } else { (y[cell], IDLE) }
+        };
+        let wanted: Vec<(f64, f64)> = layers.ranks[rank].iter().map(wanted).collect();
+        settle(layers, items, rank, &wanted, y);
+    }
+}
+
 /// Moves the ends of arrows along the sides of the items, in their order, so that arrows are straight where they can
 /// be. Only where arrows may end anywhere.
-pub(super) fn straighten(layers: &mut Layers, items: &[Item], y: &[f64]) {
+fn straighten(layers: &mut Layers, items: &[Item], y: &[f64]) {
     // Per item and side: (offset, wanted offset, hop, whether it begins here).
     let mut sides: Vec<[Vec<(f64, f64, usize, bool)>; 2]> = vec![Default::default(); items.len()];
     for (number, hop) in layers.hops.iter().enumerate() {

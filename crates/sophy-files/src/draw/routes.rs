@@ -1,7 +1,7 @@
 //! Where everything stands: columns and channels from left to right, and the arrows through them.
 
 use super::layers::{Flow, Hop, Item, Layers, Link, layers};
-use super::places::{heights, straighten};
+use super::places::heights;
 
 /// An arranged drawing, px. The highest and leftmost things are at 0.
 #[derive(Clone, Debug, Default)]
@@ -25,10 +25,7 @@ const EQUAL: f64 = 1.0;
 /// Arranges items and links. `lead_in`: per link, the room it needs where it begins.
 pub(super) fn layout(items: &[Item], links: &[Link], flow: Flow, lead_in: &[f64]) -> Layout {
     let mut layers = layers(items, links, flow);
-    let y = heights(&layers, items.len());
-    if flow == Flow::Around {
-        straighten(&mut layers, items, &y);
-    }
+    let y = heights(&mut layers, items, flow);
     let ends = |hop: &Hop| (y[hop.from] + hop.from_offset, y[hop.to] + hop.to_offset);
     let (track, tracks) = tracks(&layers, &ends);
 

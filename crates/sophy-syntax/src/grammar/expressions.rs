@@ -150,7 +150,7 @@ fn comparison(p: &mut Parser<'_>, start: Checkpoint, left: usize) {
         } else {
             p.quietly(|p| operation(p, Level::Sum));
         }
-        let end = p.previous().map_or(next, |token| token.range.end);
+        let end = p.previous().map_or(next, |token| token.range().end);
         parts.push(p.text_of(operand..end.max(operand)));
         operand = next;
     }
@@ -427,7 +427,7 @@ fn missing_operator(p: &mut Parser<'_>) {
     if p.after_reported() {
         return;
     }
-    let (right, left) = (p.range(), p.previous().map(|token| token.range));
+    let (right, left) = (p.range(), p.previous().map(|token| token.range()));
     let right_text = p.text_of(right.clone());
     let mut error = SyntaxError::new(
         codes::MISSING_OPERATOR,
@@ -457,14 +457,12 @@ fn missing_operand(p: &mut Parser<'_>) {
         Some(before) if matches!(before.kind, K::LeftParenthesis | K::LeftBracket | K::Comma) => {
             match p.current() {
                 K::RightParenthesis | K::RightBracket | K::Comma | K::End => {
-                    (before.range.start..here.end, "an expression is missing here".to_owned())
+                    (before.range().start..here.end, "an expression is missing here".to_owned())
                 }
                 _ => (here.clone(), format!("`{}` has nothing on its left", p.text_of(here))),
             }
         }
-        Some(before) => {
-            (before.range.clone(), format!("`{}` has nothing on its right", p.text_of(before.range)))
-        }
+        Some(before) => (before.range(), format!("`{}` has nothing on its right", p.text_of(before.range()))),
         None if p.current() == K::End => (here, "an expression is missing".to_owned()),
         None => (here.clone(), format!("`{}` has nothing on its left", p.text_of(here))),
     };
@@ -485,7 +483,7 @@ fn unexpected(p: &mut Parser<'_>) {
         let number_before = p.previous().filter(|token| token.kind == SyntaxKind::Number);
         error = match number_before {
             Some(number) if p.next() == SyntaxKind::Number => {
-                error.help(format!("a decimal number has a point: `{}.…`", p.text_of(number.range)))
+                error.help(format!("a decimal number has a point: `{}.…`", p.text_of(number.range())))
             }
             _ => error.help("a comma stands only between the arguments of a function"),
         };

@@ -15,7 +15,7 @@ pub(crate) fn semicolon(p: &mut Parser<'_>) {
     }
     if ends_item(p) || p.begins_anew() || blocks::ends_here(p) {
         let end = p.end_of_previous();
-        let before = p.previous().map_or("", |token| p.text_of(token.range));
+        let before = p.previous().map_or("", |token| p.text_of(token.range()));
         p.error(
             SyntaxError::new(codes::MISSING_SEMICOLON, end..end, format!("`;` is missing after `{before}`"))
                 .help("write `;` there"),
