@@ -10,6 +10,8 @@ use std::ops::Range;
 pub(crate) struct Owned {
     states: Table<StateIndex>,
     algebraics: Table<AlgebraicIndex>,
+    /// Among [`System::guarded`].
+    guarded: Table<u32>,
 }
 
 impl Owned {
@@ -19,7 +21,9 @@ impl Owned {
         let states: Vec<_> = states.map(|(i, s)| (s.rate.owner.0, StateIndex::new(i))).collect();
         let algebraics = system.algebraics.iter().enumerate();
         let algebraics: Vec<_> = algebraics.map(|(i, z)| (z.value.owner.0, AlgebraicIndex::new(i))).collect();
+        let guarded: Vec<_> = (0..).zip(&system.guarded).map(|(i, row)| (row.owner.0, i)).collect();
         Owned {
+            guarded: Table::from_pairs(automata, &guarded),
             states: Table::from_pairs(automata, &states),
             algebraics: Table::from_pairs(automata, &algebraics),
         }
@@ -68,7 +72,8 @@ impl Owned {
         let states = self.states.row(automaton).iter().map(|s| &system.states[s.position()].rate);
         let algebraics = self.algebraics.row(automaton).iter();
         let algebraics = algebraics.map(|z| &system.algebraics[z.position()].value);
-        let rows = states.chain(algebraics).map(|row| row.by_location[location]);
+        let guarded = self.guarded.row(automaton).iter().map(|&row| &system.guarded[row as usize]);
+        let rows = states.chain(algebraics).chain(guarded).map(|row| row.by_location[location]);
         let outgoing = system.automata[automaton].locations[location].transitions.iter();
         let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
         gather.incidence.watches_below(rows.chain(guards))

@@ -8,7 +8,7 @@ use sophy_field::{
     AutomatonIndex, Block, Call, Entry, Formula, LocationIndex, Operand, RowResult, SourceIndex, StateIndex,
     Table,
 };
-use sophy_ir::{Leaf, Linearity, NodeId, Row, System};
+use sophy_ir::{Leaf, Linearity, Node, NodeId, Row, System, Watch};
 use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
@@ -224,6 +224,15 @@ impl<'a> Gather<'a> {
         let start = self.entries.len() as u32;
         self.entries.extend(before);
         Formula { call, sources, before: start..self.entries.len() as u32, result: RESULT }
+    }
+
+    /// Whether a watch compares time itself with what does not change between events.
+    pub(crate) fn is_clock(&mut self, watch: &Watch) -> bool {
+        let time = self.system.graph.node(watch.left) == Node::Leaf(Leaf::Time);
+        time && {
+            self.incidence.direct_leaves(watch.right);
+            self.incidence.found().iter().all(|leaf| matches!(leaf, Leaf::Truth(_) | Leaf::Stair(_)))
+        }
     }
 
     /// A formula per location, in a row.

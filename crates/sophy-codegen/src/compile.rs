@@ -7,8 +7,8 @@ use crate::logic;
 use crate::memory::Memory;
 use crate::shapes::{Emitter, Programs, RequestIndex, Sharing};
 use crate::watches::Watching;
-use sophy_field::{Call, Equations, Formula, InputIndex, Logic, ParameterIndex, StateIndex};
-use sophy_ir::{Evaluator, Leaf, System, Value};
+use sophy_field::{Call, Equations, Formula, InputIndex, Logic, ParameterIndex, StairCode, StateIndex};
+use sophy_ir::{Evaluator, Leaf, Stair, System, Value};
 use std::collections::BTreeMap;
 
 /// Callable equations and transitions of one system with one set of parameter values.
@@ -117,7 +117,7 @@ pub fn compile_sharing(
         on_watch,
         automata,
         watches,
-        stairs: system.stairs.iter().map(|stair| [stair.lower, stair.upper]).collect(),
+        stairs: system.stairs.iter().map(|stair| stair_code(system, &memory, stair)).collect(),
         watches_of_source: watching.of_sources(),
         formulas,
         rates,
@@ -190,7 +190,15 @@ pub(crate) fn parameter_leaf(leaf: Leaf, values: &[f64]) -> Value {
     }
 }
 
-/// Memory at the start: parameters and the pool of numbers and parametric expressions.
+fn stair_code(system: &System, memory: &Memory, stair: &Stair) -> StairCode {
+    let knots = stair.knots.map_or(0..0, |column| {
+        let first = memory.column(column) + 1;
+        first..first + system.graph.numbers(column).len() as u32
+    });
+    StairCode { watches: [stair.lower, stair.upper], knots }
+}
+
+/// Memory at the start: parameters, columns and the pool of numbers and parametric expressions.
 fn image(
     system: &System,
     memory: &Memory,
@@ -201,6 +209,11 @@ fn image(
     let mut image = vec![0.0; length as usize];
     let first = memory.parameters as usize;
     image[first..first + parameters.len()].copy_from_slice(parameters);
+    for (&at, column) in memory.columns.iter().zip(system.graph.columns()) {
+        let numbers = &column.numbers;
+        image[at as usize] = numbers.len() as f64;
+        image[at as usize + 1..][..numbers.len()].copy_from_slice(numbers);
+    }
     for (position, &node) in memory.pooled.iter().enumerate() {
         let mut leaf = |leaf| parameter_leaf(leaf, parameters);
         image[memory.pool as usize + position] = evaluator.value(&system.graph, node, &mut leaf).real();

@@ -138,6 +138,14 @@ fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memor
                 memory[to as usize] = truth(scalar!(a).equal(scalar!(b)));
                 continue;
             }
+            Code::Locate => {
+                memory[to as usize] = scalar!(a).locate(column(memory, b));
+                continue;
+            }
+            Code::Lookup => {
+                memory[to as usize] = scalar!(a).lookup(column(memory, b));
+                continue;
+            }
             Code::Not => {
                 memory[to as usize] = truth(!is_true(scalar!(a)));
                 continue;
@@ -168,6 +176,13 @@ fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memor
         };
         store(memory, to, value);
     }
+}
+
+/// The numbers of a column: they stand behind their count.
+#[inline]
+fn column<T: Scalar>(memory: &[T], at: u32) -> &[T] {
+    let first = at as usize + 1;
+    &memory[first..first + memory[at as usize].count()]
 }
 
 #[inline]

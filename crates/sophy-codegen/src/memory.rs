@@ -1,6 +1,6 @@
 //! Where everything that outlives a program stands.
 
-use sophy_field::{Layout, Operand, SourceIndex};
+use sophy_field::{ColumnIndex, Layout, Operand, SourceIndex};
 use sophy_ir::{Leaf, Node, NodeId, System};
 
 /// Which jets a program reads: q for rates, x for guards, resets and outputs.
@@ -17,6 +17,8 @@ pub(crate) struct Memory {
     algebraics: [u32; 2],
     /// First parameter.
     pub(crate) parameters: u32,
+    /// Where each column stands: its length, then its numbers.
+    pub(crate) columns: Vec<u32>,
     /// First of the pool of numbers and parametric expressions.
     pub(crate) pool: u32,
     /// Parametric expressions and numbers in the pool, in order.
@@ -38,6 +40,12 @@ impl Memory {
         let truths = 2 * sources + 2 * algebraics;
         let stairs = truths + count(system.truths.len());
         let parameters = stairs + count(system.stairs.len());
+        let mut end = parameters + count(system.parameters.len());
+        let mut columns = Vec::new();
+        for column in system.graph.columns() {
+            columns.push(end);
+            end += 1 + count(column.numbers.len());
+        }
         Memory {
             layout: Layout {
                 width,
@@ -51,11 +59,17 @@ impl Memory {
             },
             algebraics: [2 * sources, 2 * sources + algebraics],
             parameters,
-            pool: parameters + count(system.parameters.len()),
+            columns,
+            pool: end,
             pooled: Vec::new(),
             known: vec![ABSENT; system.graph.len()],
             parametric: parametric(system),
         }
+    }
+
+    /// Where a column stands.
+    pub(crate) fn column(&self, column: ColumnIndex) -> u32 {
+        self.columns.get(column.position()).copied().unwrap_or(self.parameters)
     }
 
     /// Whether an expression depends on parameters and numbers only.

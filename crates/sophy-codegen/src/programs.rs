@@ -212,6 +212,14 @@ impl Step<'_, '_> {
             }
             Node::Binary(function, a, b) => self.binary(function, a, b),
             Node::Compare(comparison, a, b) => self.compare(comparison, a, b),
+            Node::Locate(column, a) => {
+                let (a, column) = (self.scalar(a), self.memory.column(column));
+                self.emit_scalar(Code::Locate, a, column)
+            }
+            Node::Lookup(column, a) => {
+                let (a, column) = (self.scalar(a), self.memory.column(column));
+                self.emit_scalar(Code::Lookup, a, column)
+            }
             Node::Not(a) => {
                 let a = self.scalar(a);
                 self.emit_scalar(Code::Not, a, 0)

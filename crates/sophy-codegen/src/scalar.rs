@@ -28,6 +28,12 @@ pub(crate) trait Scalar:
     fn integer_power(self, n: i32) -> Self;
     fn floor(self) -> Self;
     fn sign(self) -> Self;
+    /// A whole number that is not negative.
+    fn count(self) -> usize;
+    /// The position among the knots of a column.
+    fn locate(self, knots: &[Self]) -> Self;
+    /// The number at this position of a column.
+    fn lookup(self, numbers: &[Self]) -> Self;
     /// Whether `self < other` at the point that decides a switch.
     fn less(self, other: Self) -> bool;
     /// Whether both are the same number.
@@ -88,6 +94,18 @@ impl Scalar for f64 {
         sophy_ir::arithmetic::sign(self)
     }
     #[inline]
+    fn count(self) -> usize {
+        self as usize
+    }
+    #[inline]
+    fn locate(self, knots: &[Self]) -> Self {
+        sophy_ir::arithmetic::locate(knots, self)
+    }
+    #[inline]
+    fn lookup(self, numbers: &[Self]) -> Self {
+        sophy_ir::arithmetic::lookup(numbers, self)
+    }
+    #[inline]
     fn less(self, other: Self) -> bool {
         self < other
     }
@@ -122,6 +140,19 @@ impl Scalar for Interval {
     }
     fn integer_power(self, n: i32) -> Self {
         Interval::powi(self, n)
+    }
+    fn count(self) -> usize {
+        self.midpoint() as usize
+    }
+    // What engines enclose is smooth: knots were lifted.
+    fn locate(self, _: &[Self]) -> Self {
+        Interval::ENTIRE
+    }
+    fn lookup(self, numbers: &[Self]) -> Self {
+        let last = numbers.len().saturating_sub(1);
+        let end = |position: f64| (position as usize).min(last);
+        let between = numbers.get(end(self.lo)..=end(self.hi)).unwrap_or(&[]);
+        between.iter().copied().reduce(Interval::hull).unwrap_or(Interval::ENTIRE)
     }
     fn less(self, other: Self) -> bool {
         self.midpoint() < other.midpoint()

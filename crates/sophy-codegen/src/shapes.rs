@@ -153,6 +153,8 @@ mod kind {
     pub(super) const SELECT: u32 = 10;
     pub(super) const RESULT: u32 = 11;
     pub(super) const STORED: u32 = 12;
+    pub(super) const LOCATE: u32 = 13;
+    pub(super) const LOOKUP: u32 = 14;
 }
 
 impl Reader {
@@ -232,6 +234,9 @@ impl Reader {
             Node::Compare(comparison, a, b) => {
                 self.key.extend([kind::COMPARE, comparison as u32, of(a), of(b)]);
             }
+            // A column belongs to the shape: copies of a component read the same one.
+            Node::Locate(column, a) => self.key.extend([kind::LOCATE, column.0, of(a)]),
+            Node::Lookup(column, a) => self.key.extend([kind::LOOKUP, column.0, of(a)]),
             Node::Not(a) => self.key.extend([kind::NOT, of(a)]),
             Node::And(a, b) => self.key.extend([kind::AND, of(a), of(b)]),
             Node::Or(a, b) => self.key.extend([kind::OR, of(a), of(b)]),

@@ -95,6 +95,7 @@ impl Watching {
             dependents: self.dependents.row(index.position()).to_vec(),
             guard: self.guards[index.position()],
             affine: watch.affine,
+            clock: gather.is_clock(watch),
             formula: gather.formula(watch.difference, false),
             left: gather.formula(watch.left, false),
             right: gather.formula(watch.right, false),

@@ -153,6 +153,16 @@ pub enum Fault {
         /// Its value.
         value: f64,
     },
+    /// The argument of a table is outside of the range of its knots.
+    #[error("a table is left through {watch} at t = {time} s")]
+    OutsideTable {
+        /// The watch of the stair that has no edge on this side.
+        watch: WatchIndex,
+        /// When, s.
+        time: f64,
+        /// The argument there.
+        value: f64,
+    },
     /// The sign of a non-linear watch cannot be decided to rounding.
     #[error("the sign of {watch} cannot be decided at t = {time} s")]
     Undecided {

@@ -8,7 +8,8 @@ use std::ops::Range;
 ///
 /// **Sources** are what right-hand sides read: the states, then the inputs, then time (the vector z of the
 /// thesis, §3.2.2). Memory holds, for each source, a *quantised* jet (q, read by rates) and a *series* jet (x,
-/// read by guards, resets and outputs), then scalars and temporaries.
+/// read by guards, resets and outputs), then scalars, columns and temporaries. A *column* is its length and then
+/// its numbers: the knots of a table, or a coefficient of its pieces.
 ///
 /// **Blocks** are rows evaluated together with shared subexpressions. [`Equations::influence`] lists, for
 /// each source, the blocks to evaluate when its quantised value changes; an entry of the list names the
@@ -52,8 +53,8 @@ pub struct Equations {
     pub automata: Vec<AutomatonCode>,
     /// Watches; those that read a truth come after the watch that decides it.
     pub watches: Vec<WatchCode>,
-    /// Per stair: the watches that bound it.
-    pub stairs: Vec<[WatchIndex; 2]>,
+    /// Per stair: what bounds it.
+    pub stairs: Vec<StairCode>,
     /// Per source: the watches that read it, directly or through algebraic variables.
     pub watches_of_source: Table<WatchIndex>,
     /// Formulas chosen by a location: those of one quantity in a row.
@@ -180,6 +181,8 @@ pub struct WatchCode {
     pub right: Formula,
     /// Whether its polynomial is exact: crossings have a closed form.
     pub affine: bool,
+    /// Whether it compares time itself (left) with what does not change between events: it crosses exactly there.
+    pub clock: bool,
     /// Whether a transition's guard reads it.
     pub guard: bool,
     /// Truths it decides: index and the signs (bit 0 −, bit 1 zero, bit 2 +) for which each holds.
@@ -188,6 +191,42 @@ pub struct WatchCode {
     pub stair: Option<(u32, f64)>,
     /// Watches that read a truth or stair decided by this one.
     pub dependents: Vec<WatchIndex>,
+}
+
+/// The code of a stair.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StairCode {
+    /// The watches that bound it, from below and from above.
+    pub watches: [WatchIndex; 2],
+    /// Where the knots of a table stand in memory; empty for whole numbers.
+    pub knots: Range<u32>,
+}
+
+impl StairCode {
+    /// The knots, in memory; none for whole numbers.
+    #[inline]
+    pub fn knots<'a>(&self, memory: &'a [f64]) -> &'a [f64] {
+        &memory[self.knots.start as usize..self.knots.end as usize]
+    }
+
+    /// The step of an argument.
+    pub fn step(&self, memory: &[f64], argument: f64) -> f64 {
+        let knots = self.knots(memory);
+        if knots.is_empty() {
+            return argument.floor();
+        }
+        knots.partition_point(|&knot| knot <= argument) as f64 - 1.0
+    }
+
+    /// Where a step begins; `None` before the first knot of a table, behind its last one and where that is infinite.
+    pub fn edge(&self, memory: &[f64], step: f64) -> Option<f64> {
+        let knots = self.knots(memory);
+        if knots.is_empty() {
+            return Some(step);
+        }
+        let inside = step >= 0.0 && step < knots.len() as f64;
+        inside.then(|| knots[step as usize]).filter(|knot| knot.is_finite())
+    }
 }
 
 /// A value of series jets at an instant: prerequisites (algebraic variables, by location), then a program.

@@ -47,6 +47,8 @@ index! {
     TruthIndex, "b";
     /// A staircase: the integer that `floor` of a continuous quantity is at present.
     StairIndex, "s";
+    /// A column of numbers: the knots of a table, or a coefficient of its pieces.
+    ColumnIndex, "n";
     /// A hybrid automaton; its locations are numbered from 0 in written order.
     AutomatonIndex, "a";
     /// A location of one automaton.

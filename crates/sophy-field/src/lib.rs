@@ -18,11 +18,11 @@ mod table;
 pub use agenda::Agenda;
 pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
 pub use equations::{
-    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, SourceIndex, WatchCode,
+    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, SourceIndex, StairCode, WatchCode,
 };
 pub use index::{
-    AlgebraicIndex, AutomatonIndex, EventIndex, InputIndex, LocationIndex, OutputIndex, ParameterIndex,
-    StairIndex, StateIndex, TransitionIndex, TruthIndex, WatchIndex,
+    AlgebraicIndex, AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, OutputIndex,
+    ParameterIndex, StairIndex, StateIndex, TransitionIndex, TruthIndex, WatchIndex,
 };
 pub use journal::{Journal, Record};
 pub use logic::{EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};

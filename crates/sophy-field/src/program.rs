@@ -67,6 +67,10 @@ pub enum Code {
     Less,
     LessEqual,
     Equal,
+    /// The position of scalar `a` among the knots of the column at `b`, a scalar.
+    Locate,
+    /// The number at position `a` (a scalar) of the column at `b`, a scalar.
+    Lookup,
     /// Logic on scalars.
     Not,
     And,

@@ -338,7 +338,12 @@ impl Control {
                 };
                 let mut who = self.chosen.iter().copied().filter(assigns);
                 if let (Some(first), Some(second)) = (who.next(), who.next()) {
-                    return Err(HybridError::AssignedTwice { time, state, transitions: [first, second], values });
+                    return Err(HybridError::AssignedTwice {
+                        time,
+                        state,
+                        transitions: [first, second],
+                        values,
+                    });
                 }
             }
         }

@@ -210,6 +210,34 @@ pub fn acosh(x: f64) -> f64 {
     if x < 1.0 { f64::NAN } else { libm::acosh(x) }
 }
 
+/// The position of the last of increasing knots that is not above `x`; NaN outside of their range, up to rounding.
+#[inline]
+pub fn locate(knots: &[f64], x: f64) -> f64 {
+    let (Some(&first), Some(&last)) = (knots.first(), knots.last()) else { return f64::NAN };
+    // Equal means: within 4 ulp.
+    let slack = |end: f64| 4.0 * (end.abs().next_up() - end.abs());
+    if x >= first && x <= last {
+        (knots.partition_point(|&knot| knot <= x) - 1) as f64
+    } else if x < first && first - x <= slack(first) {
+        0.0
+    } else if x > last && x - last <= slack(last) {
+        (knots.len() - 1) as f64
+    } else {
+        f64::NAN
+    }
+}
+
+/// The number at a position: the first one before it, the last one behind it, NaN at NaN.
+#[inline]
+pub fn lookup(numbers: &[f64], position: f64) -> f64 {
+    if position.is_nan() {
+        return position;
+    }
+    // What is negative becomes 0.
+    let at = (position as usize).min(numbers.len().saturating_sub(1));
+    numbers.get(at).copied().unwrap_or(f64::NAN)
+}
+
 /// −1, 0 or 1 (+0 for both zeros); NaN stays NaN.
 #[inline]
 pub fn sign(x: f64) -> f64 {

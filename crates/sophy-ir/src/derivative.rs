@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 impl Graph {
     /// ∂`root`/∂`leaf`, or `None` if `root` does not depend on `leaf`.
     ///
-    /// Exact inside a branch: the derivative of a switch (`if`, `abs`, `min`, `sign`, `floor`, …) is that of
+    /// Exact inside a branch: the derivative of a switch (`if`, `abs`, `min`, `sign`, `floor`, a table, …) is that of
     /// the branch taken. Structural zeros are left out, numbers are never multiplied away.
     pub fn derivative(&mut self, root: NodeId, leaf: Leaf) -> Option<NodeId> {
         self.directional(root, &mut |graph, other| (other == leaf).then(|| graph.number(1.0)))
@@ -40,7 +40,9 @@ impl Graph {
             | Node::Compare(..)
             | Node::Not(_)
             | Node::And(..)
-            | Node::Or(..) => None,
+            | Node::Or(..)
+            | Node::Locate(..)
+            | Node::Lookup(..) => None,
             Node::Unary(function, a) => {
                 let da = rate(a)?;
                 self.unary_rate(function, id, a, da)

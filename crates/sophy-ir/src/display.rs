@@ -45,6 +45,12 @@ impl Graph {
             Node::Not(a) => (3, format!("not {}", write(a, 3))),
             Node::And(a, b) => infix(2, "and", a, b, 3),
             Node::Or(a, b) => infix(1, "or", a, b, 2),
+            Node::Locate(column, a) => {
+                (9, format!("locate({:?}, {})", self.column_name(column), write(a, 0)))
+            }
+            Node::Lookup(column, a) => {
+                (9, format!("lookup({:?}, {})", self.column_name(column), write(a, 0)))
+            }
             Node::Select(c, a, b) => {
                 (0, format!("if {} then {} else {}", write(c, 1), write(a, 1), write(b, 0)))
             }

@@ -38,7 +38,7 @@ pub fn evaluate(graph: &Graph, root: NodeId, leaf: &mut impl FnMut(Leaf) -> Valu
     for &id in &order {
         // Operands stand before; both lists have one order.
         let get = |operand| order.binary_search(&operand).map_or(Value::Real(f64::NAN), |at| values[at]);
-        let value = node_value(graph.node(id), get, leaf);
+        let value = node_value(graph, id, get, leaf);
         values.push(value);
     }
     values.last().copied().unwrap_or(Value::Real(f64::NAN))
@@ -60,25 +60,33 @@ impl Evaluator {
         let known = &mut self.known;
         for &id in self.reach.beyond(graph, [root], |id| known[id.position()].is_some()) {
             let get = |operand: NodeId| known[operand.position()].unwrap_or(Value::Real(f64::NAN));
-            let value = node_value(graph.node(id), get, leaf);
+            let value = node_value(graph, id, get, leaf);
             known[id.position()] = Some(value);
         }
         known[root.position()].unwrap_or(Value::Real(f64::NAN))
     }
 }
 
-fn node_value(node: Node, get: impl Fn(NodeId) -> Value, leaf: &mut impl FnMut(Leaf) -> Value) -> Value {
-    match node {
+fn node_value(
+    graph: &Graph,
+    id: NodeId,
+    get: impl Fn(NodeId) -> Value,
+    leaf: &mut impl FnMut(Leaf) -> Value,
+) -> Value {
+    use crate::arithmetic::{integer_power, locate, lookup};
+    match graph.node(id) {
         Node::Number(bits) => Value::Real(f64::from_bits(bits)),
         Node::Boolean(b) => Value::Boolean(b),
         Node::Leaf(reference) => leaf(reference),
         Node::Unary(function, a) => Value::Real(function.apply(get(a).real())),
         Node::Binary(function, a, b) => Value::Real(function.apply(get(a).real(), get(b).real())),
-        Node::IntegerPower(a, n) => Value::Real(crate::arithmetic::integer_power(get(a).real(), n)),
+        Node::IntegerPower(a, n) => Value::Real(integer_power(get(a).real(), n)),
         Node::Compare(comparison, a, b) => Value::Boolean(comparison.holds(get(a).real(), get(b).real())),
         Node::Not(a) => Value::Boolean(!get(a).boolean()),
         Node::And(a, b) => Value::Boolean(get(a).boolean() && get(b).boolean()),
         Node::Or(a, b) => Value::Boolean(get(a).boolean() || get(b).boolean()),
+        Node::Locate(column, a) => Value::Real(locate(graph.numbers(column), get(a).real())),
+        Node::Lookup(column, a) => Value::Real(lookup(graph.numbers(column), get(a).real())),
         Node::Select(c, a, b) => {
             if get(c).boolean() {
                 get(a)

@@ -1,8 +1,12 @@
-use crate::arithmetic::{Binary, Comparison, Unary, integer_power};
+use crate::arithmetic::{Binary, Comparison, Unary, integer_power, locate, lookup};
 use crate::class::VariableId;
+use crate::column::Column;
 use rustc_hash::FxBuildHasher;
-use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
+use sophy_field::{
+    AlgebraicIndex, ColumnIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex,
+};
 use std::hash::BuildHasher;
+use std::sync::Arc;
 
 /// A node of a [`Graph`]. Equal expressions of one graph have equal ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -36,7 +40,7 @@ pub enum Leaf {
     Time,
     /// A decided comparison (boolean).
     Truth(TruthIndex),
-    /// The present integer of a `floor`.
+    /// The present integer of a `floor`, or the present piece of a table.
     Stair(StairIndex),
 }
 
@@ -65,6 +69,10 @@ pub enum Node {
     Or(NodeId, NodeId),
     /// `if condition then a else b`; the branch not taken is not evaluated.
     Select(NodeId, NodeId, NodeId),
+    /// The position in a column of knots of the last one that is not above a number; NaN outside of their range.
+    Locate(ColumnIndex, NodeId),
+    /// The number at a position of a column: the first one before it, the last one behind it.
+    Lookup(ColumnIndex, NodeId),
 }
 
 /// A hash-consed expression graph: a node is stored once, operands before users.
@@ -77,6 +85,7 @@ pub struct Graph {
     /// Where to find a node: its position + 1 at the place of its hash or behind (open addressing), 0 where
     /// there is none. The length is a power of two.
     known: Vec<u32>,
+    pub(crate) columns: Vec<Arc<Column>>,
 }
 
 impl Graph {
@@ -242,6 +251,28 @@ impl Graph {
         }
     }
 
+    /// The position of `a` among the knots of a column.
+    pub fn locate(&mut self, column: ColumnIndex, a: NodeId) -> NodeId {
+        match self.as_number(a) {
+            Some(x) => {
+                let position = locate(self.numbers(column), x);
+                self.number(position)
+            }
+            None => self.intern(Node::Locate(column, a)),
+        }
+    }
+
+    /// The number at a position of a column.
+    pub fn lookup(&mut self, column: ColumnIndex, position: NodeId) -> NodeId {
+        match self.as_number(position) {
+            Some(position) => {
+                let number = lookup(self.numbers(column), position);
+                self.number(number)
+            }
+            None => self.intern(Node::Lookup(column, position)),
+        }
+    }
+
     /// `a + b`, for code that builds formulas.
     pub fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
         self.binary(Binary::Add, a, b)
@@ -266,7 +297,11 @@ impl Graph {
     pub fn operands(&self, id: NodeId, mut visit: impl FnMut(NodeId)) {
         match self.node(id) {
             Node::Number(_) | Node::Boolean(_) | Node::Leaf(_) => {}
-            Node::Unary(_, a) | Node::IntegerPower(a, _) | Node::Not(a) => visit(a),
+            Node::Unary(_, a)
+            | Node::IntegerPower(a, _)
+            | Node::Not(a)
+            | Node::Locate(_, a)
+            | Node::Lookup(_, a) => visit(a),
             Node::Binary(_, a, b) | Node::Compare(_, a, b) | Node::And(a, b) | Node::Or(a, b) => {
                 visit(a);
                 visit(b);
@@ -291,6 +326,8 @@ impl Graph {
             Node::And(a, b) => self.and(a, b),
             Node::Or(a, b) => self.or(a, b),
             Node::Select(c, a, b) => self.select(c, a, b),
+            Node::Locate(column, a) => self.locate(column, a),
+            Node::Lookup(column, a) => self.lookup(column, a),
         }
     }
 }
@@ -316,6 +353,8 @@ impl Node {
             Node::And(a, b) => Node::And(get(a), get(b)),
             Node::Or(a, b) => Node::Or(get(a), get(b)),
             Node::Select(c, a, b) => Node::Select(get(c), get(a), get(b)),
+            Node::Locate(column, a) => Node::Locate(column, get(a)),
+            Node::Lookup(column, a) => Node::Lookup(column, get(a)),
         }
     }
 }

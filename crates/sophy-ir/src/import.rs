@@ -17,6 +17,14 @@ impl Graph {
             let get = |operand: NodeId| order.binary_search(&operand).map_or(operand, |at| copied[at]);
             let copy = match from.node(id) {
                 Node::Leaf(leaf) => replace(self, leaf),
+                Node::Locate(column, a) => {
+                    let column = self.adopt(from, column);
+                    self.locate(column, get(a))
+                }
+                Node::Lookup(column, a) => {
+                    let column = self.adopt(from, column);
+                    self.lookup(column, get(a))
+                }
                 other => self.rebuild(other.map(get)),
             };
             copied.push(copy);
@@ -71,6 +79,14 @@ impl Importer {
             for &id in missing {
                 let copy = match from.node(id) {
                     Node::Leaf(leaf) => replace(into, leaf),
+                    Node::Locate(column, a) => {
+                        let column = into.adopt(from, column);
+                        into.locate(column, copies[a.position()].1)
+                    }
+                    Node::Lookup(column, a) => {
+                        let column = into.adopt(from, column);
+                        into.lookup(column, copies[a.position()].1)
+                    }
                     other => into.rebuild(other.map(|operand| copies[operand.position()].1)),
                 };
                 copies[id.position()] = (round, copy);

@@ -12,6 +12,7 @@
 mod affine;
 pub mod arithmetic;
 mod class;
+mod column;
 mod dependencies;
 mod derivative;
 mod display;
@@ -21,6 +22,7 @@ mod import;
 mod linearity;
 mod model;
 mod model_text;
+mod pieces;
 mod system;
 mod system_text;
 
@@ -31,12 +33,14 @@ pub use class::{
     EventEnd, EventPort, EventSection, EventWire, HybridAutomaton, Location, Member, Port, Rule, Sources,
     Special, Transition, Trigger, Variable, VariableId, VariableKind, Wire,
 };
+pub use column::Column;
 pub use dependencies::Reach;
 pub use evaluate::{Evaluator, Value, evaluate};
 pub use graph::{Graph, Leaf, Node, NodeId};
 pub use import::Importer;
 pub use linearity::Linearity;
 pub use model::{Interpolation, Model, Quantity, Table};
+pub use pieces::Pieces;
 pub use system::{
     Algebraic, Automaton, Awaited, Event, EventInput, Feature, FlatEmission, FlatLocation, FlatReset,
     FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Receiver, Role, Row, Stair, State, System,

@@ -4,8 +4,8 @@ use crate::graph::{Graph, Leaf, Node, NodeId};
 use crate::model::Quantity;
 use sophy_diagnostics::Span;
 use sophy_field::{
-    AutomatonIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex,
-    WatchIndex,
+    AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex,
+    TransitionIndex, WatchIndex,
 };
 use std::fmt;
 
@@ -43,6 +43,8 @@ pub struct System {
     pub truths: Vec<Truth>,
     /// Staircases.
     pub stairs: Vec<Stair>,
+    /// What is watched though no rate or guard reads it: rows that read the stairs of tables which outputs read.
+    pub guarded: Vec<Row>,
     /// Assignments at the start, after declared values, in an order in which each follows what it reads.
     pub initial: Vec<FlatReset>,
     /// Input events of the whole that members receive under other names.
@@ -95,8 +97,6 @@ pub enum Feature {
     Edge,
     /// `never`.
     Never,
-    /// A table.
-    Table,
 }
 
 impl Feature {
@@ -116,7 +116,6 @@ impl Feature {
             Feature::Chance => "a random choice",
             Feature::Edge => "an edge in an expression",
             Feature::Never => "an instant that does not come",
-            Feature::Table => "a table",
         }
     }
 }
@@ -396,14 +395,17 @@ pub struct Truth {
     pub comparison: Comparison,
 }
 
-/// The integer n with n ≤ argument < n + 1 along the motion.
+/// The integer n with n ≤ argument < n + 1 along the motion; for a table the n with knot n ≤ argument < knot n + 1,
+/// −1 before the first knot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stair {
     /// What is rounded down.
     pub argument: NodeId,
-    /// Watches argument − n.
+    /// The knots of a table; `None` for whole numbers.
+    pub knots: Option<ColumnIndex>,
+    /// Watches argument − n, or − knot n.
     pub lower: WatchIndex,
-    /// Watches argument − (n + 1).
+    /// Watches argument − (n + 1), or − knot n + 1.
     pub upper: WatchIndex,
 }
 
@@ -452,6 +454,9 @@ impl System {
                 None => "?".to_owned(),
             },
             Leaf::Stair(i) => match self.stairs.get(i.position()) {
+                Some(Stair { argument, knots: Some(knots), .. }) => {
+                    format!("locate({:?}, {})", self.graph.column_name(*knots), self.text(*argument))
+                }
                 Some(stair) => format!("floor({})", self.text(stair.argument)),
                 None => "?".to_owned(),
             },
@@ -504,7 +509,8 @@ impl System {
             .iter()
             .map(|s| (&s.name, &s.rate))
             .chain(self.algebraics.iter().map(|z| (&z.name, &z.value)))
-            .chain(self.outputs.iter().map(|y| (&y.name, &y.value)));
+            .chain(self.outputs.iter().map(|y| (&y.name, &y.value)))
+            .chain(self.guarded.iter().map(|row| (&self.name, row)));
         for (name, row) in rows {
             let Some(owner) = self.automata.get(row.owner.position()) else {
                 return fail(format!("row of `{name}` has no owner"));
@@ -518,6 +524,7 @@ impl System {
             .iter()
             .flat_map(|s| &s.rate.by_location)
             .chain(self.algebraics.iter().flat_map(|z| &z.value.by_location))
+            .chain(self.guarded.iter().flat_map(|row| &row.by_location))
             .chain(self.watches.iter().map(|w| &w.difference));
         for id in self.graph.reachable_switches(smooth.copied()) {
             match self.graph.node(id) {
@@ -526,9 +533,13 @@ impl System {
                 }
                 Node::Unary(crate::Unary::Abs | crate::Unary::Sign | crate::Unary::Floor, _)
                 | Node::Binary(crate::Binary::Min | crate::Binary::Max, ..)
+                | Node::Locate(..)
                     if !self.is_parametric(id) =>
                 {
                     return fail(format!("`{}` was not lifted", self.text(id)));
+                }
+                Node::Lookup(column, _) if self.graph.numbers(column).is_empty() => {
+                    return fail(format!("`{}` has no numbers", self.text(id)));
                 }
                 Node::Leaf(leaf) => self.verify_leaf(leaf)?,
                 _ => {}

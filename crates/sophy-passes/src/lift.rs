@@ -1,15 +1,17 @@
 //! Kinks are events: every comparison over continuous quantities that a rate or a guard reads, also those
 //! inside `abs min max sign floor if`, becomes a truth (or a stair) decided by a watch, so that what engines
-//! read is smooth between crossings. Equal arguments share one watch.
+//! read is smooth between crossings. Equal arguments share one watch. The knots of a table are the edges of a
+//! stair: two watches move with its step, however many knots there are.
 
 use rustc_hash::FxHashMap;
-use sophy_field::{AlgebraicIndex, StairIndex, TruthIndex, WatchIndex};
+use sophy_field::{AlgebraicIndex, ColumnIndex, StairIndex, TruthIndex, WatchIndex};
 use sophy_ir::{
-    Binary, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Stair, System, Truth, Unary, Watch,
+    Binary, Column, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Row, Stair, System, Truth,
+    Unary, Watch,
 };
 
 /// Lifts the kinks of rates, algebraic variables and guards. Outputs and resets keep theirs: they are read
-/// at instants only.
+/// at instants only. But an output must not leave the range of its tables unnoticed: a stair watches it.
 pub fn lift_kinks(system: &mut System) {
     let mut lifter = Lifter {
         reach: Reach::default(),
@@ -38,7 +40,8 @@ struct Lifter<'a> {
     linearity: Linearity,
     watches: FxHashMap<Key, WatchIndex>,
     truths: FxHashMap<(WatchIndex, Comparison), TruthIndex>,
-    stairs: FxHashMap<NodeId, StairIndex>,
+    /// By the knots of a table, if it is one, and the argument.
+    stairs: FxHashMap<(Option<ColumnIndex>, NodeId), StairIndex>,
 }
 
 #[derive(Clone, Copy)]
@@ -68,6 +71,54 @@ impl Lifter<'_> {
                 }
             };
         }
+        self.outputs();
+    }
+
+    /// Watches the ends of the tables that outputs read, where no rate watches their knots.
+    fn outputs(&mut self) {
+        if self.system.graph.columns().is_empty() {
+            return;
+        }
+        let rows: Vec<Row> = self.system.outputs.iter().map(|y| y.value.clone()).collect();
+        for mut row in rows {
+            let mut any = false;
+            for node in &mut row.by_location {
+                let below = self.system.graph.reachable([*node]);
+                *node = self.system.graph.number(0.0);
+                for id in below {
+                    if let Node::Locate(column, at) = self.system.graph.node(id)
+                        && !self.system.is_parametric(at)
+                    {
+                        let at = self.lift(at);
+                        let stair = self.ends(column, at);
+                        *node = self.system.graph.add(*node, stair);
+                        any = true;
+                    }
+                }
+            }
+            if any {
+                self.system.guarded.push(row);
+            }
+        }
+    }
+
+    /// The stair of a table if there is one, else one with the ends of its range only.
+    fn ends(&mut self, column: ColumnIndex, at: NodeId) -> NodeId {
+        if self.stairs.contains_key(&(Some(column), at)) {
+            return self.stair(at, Some(column));
+        }
+        let Some(whole) = self.system.graph.columns().get(column.position()) else { return at };
+        let mut numbers = whole.numbers.clone();
+        // An infinite end stays with the knot before it.
+        let (first, last) = (1, numbers.len().saturating_sub(1));
+        let kept =
+            if numbers.last().is_some_and(|end| end.is_finite()) { last } else { last.saturating_sub(1) };
+        if first < kept {
+            numbers.drain(first..kept);
+        }
+        let name = whole.name.clone();
+        let ends = self.system.graph.column(Column { name, numbers });
+        self.stair(at, Some(ends))
     }
 
     fn row(&mut self, mut row: Vec<NodeId>) -> Vec<NodeId> {
@@ -127,7 +178,11 @@ impl Lifter<'_> {
             }
             Node::Unary(Unary::Floor, a) => {
                 let a = self.of(a);
-                self.floor(a)
+                self.stair(a, None)
+            }
+            Node::Locate(column, a) => {
+                let a = self.of(a);
+                self.stair(a, Some(column))
             }
             Node::Binary(function @ (Binary::Min | Binary::Max), a, b) => {
                 let (a, b) = (self.of(a), self.of(b));
@@ -217,21 +272,27 @@ impl Lifter<'_> {
         self.system.graph.affine(difference, &variable)
     }
 
-    /// `floor(a)` as a stair n, bounded by the watches a − n and a − (n + 1).
-    fn floor(&mut self, a: NodeId) -> NodeId {
-        if let Some(&known) = self.stairs.get(&a) {
+    /// `floor(a)` as a stair n, bounded by the watches a − n and a − (n + 1); for a table its piece n, bounded by
+    /// a − knot n and a − knot n + 1.
+    fn stair(&mut self, a: NodeId, knots: Option<ColumnIndex>) -> NodeId {
+        if let Some(&known) = self.stairs.get(&(knots, a)) {
             return self.system.graph.leaf(Leaf::Stair(known));
         }
         let index = StairIndex::new(self.system.stairs.len());
         // The stair must exist before its watches are made: they read it.
-        self.system.stairs.push(Stair { argument: a, lower: WatchIndex(0), upper: WatchIndex(0) });
-        self.stairs.insert(a, index);
+        let stair = Stair { argument: a, knots, lower: WatchIndex(0), upper: WatchIndex(0) };
+        self.system.stairs.push(stair);
+        self.stairs.insert((knots, a), index);
         let n = self.system.graph.leaf(Leaf::Stair(index));
         let one = self.system.graph.number(1.0);
         let next = self.system.graph.add(n, one);
-        let lower = self.fresh_watch(a, n);
-        let upper = self.fresh_watch(a, next);
-        self.system.stairs[index.position()] = Stair { argument: a, lower, upper };
+        let [below, above] = [n, next].map(|step| match knots {
+            Some(column) => self.system.graph.lookup(column, step),
+            None => step,
+        });
+        let lower = self.fresh_watch(a, below);
+        let upper = self.fresh_watch(a, above);
+        self.system.stairs[index.position()] = Stair { lower, upper, ..stair };
         n
     }
 

@@ -32,7 +32,8 @@ pub(crate) fn configure(
     for (name, value) in &experiment.knobs {
         match parameters.get(name.as_str()) {
             Some(&position) if system.parameters[position].structural => {
-                let message = format!("`{name}` decides the structure of the model and cannot be set for a run");
+                let message =
+                    format!("`{name}` decides the structure of the model and cannot be set for a run");
                 let error = ExperimentError::new(format!("knobs.{name}"), message);
                 collect(Err(error.help("change its value in the model, or where the component is a member")));
             }

@@ -1,9 +1,10 @@
 //! A run that cannot go on says what, where, why, and with which values.
 
+use crate::tables::{outside, range_text};
 use sophy_diagnostics::{Code, Diagnostic, Severity, Span};
-use sophy_field::{Engine, Fault, LocationIndex, StateIndex, TransitionIndex, WatchIndex};
+use sophy_field::{Engine, Fault, LocationIndex, SourceIndex, StateIndex, TransitionIndex, WatchIndex};
 use sophy_hybrid::HybridError;
-use sophy_ir::{Leaf, System};
+use sophy_ir::{Leaf, NodeId, System, Value};
 
 /// How many of the things that cannot be run are listed.
 const SHOWN: usize = 20;
@@ -68,8 +69,8 @@ impl Failure {
         })
     }
 
-    pub(crate) fn new(error: &HybridError, system: &System, engine: &dyn Engine) -> Self {
-        let reporter = Reporter { system, engine };
+    pub(crate) fn new(error: &HybridError, system: &System, parameters: &[f64], engine: &dyn Engine) -> Self {
+        let reporter = Reporter { system, parameters, engine };
         match error {
             HybridError::Engine(fault) => reporter.fault(*fault),
             HybridError::AssignedTwice { time, state, transitions, values } => {
@@ -84,6 +85,7 @@ impl Failure {
 
 struct Reporter<'a> {
     system: &'a System,
+    parameters: &'a [f64],
     engine: &'a dyn Engine,
 }
 
@@ -93,7 +95,13 @@ impl Reporter<'_> {
             Fault::NotFinite { state, time, value } => self.rate(state, time, value),
             Fault::StateNotFinite { state, time, value } => {
                 let name = &self.system.states[state.position()].name;
-                self.failure("SR0002", time, format!("state `{name}` is {value} at t = {time} s"))
+                let mut failure =
+                    self.failure("SR0002", time, format!("state `{name}` is {value} at t = {time} s"));
+                let resets = self.system.transitions.iter().flat_map(|t| &t.resets);
+                for reset in resets.filter(|reset| reset.state == state) {
+                    failure.notes.extend(self.outside(reset.value, time));
+                }
+                failure
             }
             Fault::WatchNotFinite { watch, time, value } => {
                 let text = self.watch_text(watch);
@@ -106,6 +114,7 @@ impl Reporter<'_> {
                 failure.notes.push(self.values(self.watch_sources(watch), time));
                 failure
             }
+            Fault::OutsideTable { watch, time, value } => self.table(watch, time, value),
             Fault::Undecided { watch, time } => {
                 let text = self.watch_text(watch);
                 let mut failure = self.failure(
@@ -164,6 +173,9 @@ impl Reporter<'_> {
         failure.span = self.rate_span(state);
         failure.notes.push(self.equation(state));
         failure.notes.push(self.values(self.rate_sources(state), time));
+        failure.notes.extend(
+            self.outside(self.system.states[state.position()].rate.at(self.location_of(state)), time),
+        );
         failure
     }
 
@@ -175,8 +187,7 @@ impl Reporter<'_> {
         values: &[f64; 2],
     ) -> Failure {
         let name = &self.system.states[state.position()].name;
-        let mut failure =
-            self.failure("SR0010", time, format!("`{name}` is assigned twice at t = {time} s"));
+        let mut failure = self.failure("SR0010", time, format!("`{name}` is assigned twice at t = {time} s"));
         failure.span = self.system.transitions[transitions[0].position()].span;
         for (transition, value) in transitions.iter().zip(values) {
             failure.notes.push(format!("{} gives it {value}", self.transition(*transition)));
@@ -186,6 +197,44 @@ impl Reporter<'_> {
                 .to_owned(),
         );
         failure
+    }
+
+    fn table(&self, watch: WatchIndex, time: f64, value: f64) -> Failure {
+        let stair = self.system.stairs.iter().find(|stair| stair.lower == watch || stair.upper == watch);
+        let argument = stair.map_or("?".to_owned(), |stair| self.system.text(stair.argument));
+        let knots = stair.and_then(|stair| self.system.graph.columns().get(stair.knots?.position()));
+        let (name, range) = knots.map_or(("?", String::new()), |knots| (&knots.name, range_text(knots)));
+        let ends = knots.and_then(|knots| knots.numbers.first().zip(knots.numbers.last()));
+        let near = |end: f64| (value - end).abs() <= 1e-9 * end.abs().max(1.0);
+        let goes =
+            if ends.is_some_and(|(&first, &last)| near(first) || near(last)) { " and goes on" } else { "" };
+        let mut failure = self.failure(
+            "SR0009",
+            time,
+            format!(
+                "table `{name}` is read outside of its range, {range}: `{argument}` is {value}{goes} at t = {time} s"
+            ),
+        );
+        failure.span = self.watch_span(watch);
+        failure.notes.push(self.values(self.watch_sources(watch), time));
+        failure.helps.push(match argument.as_str() {
+            "time" => "run within the times of the file; after its last line the option `last` holds the last value",
+            _ => "extend the file, or limit the argument: `sat(x, lo, hi)`",
+        }.to_owned());
+        failure
+    }
+
+    /// Tables below an expression whose argument is outside of their range.
+    fn outside(&self, node: NodeId, time: f64) -> Vec<String> {
+        let states = self.system.states.len() as u32;
+        let source = |index: u32| Value::Real(self.engine.value(SourceIndex(index), time));
+        outside(&self.system.graph, node, &mut |leaf| match leaf {
+            Leaf::State(i) => source(i.0),
+            Leaf::Input(i) => source(states + i.0),
+            Leaf::Time => Value::Real(time),
+            Leaf::Parameter(i) => Value::Real(self.parameters.get(i.position()).copied().unwrap_or(f64::NAN)),
+            _ => Value::Real(f64::NAN),
+        })
     }
 
     fn livelock(&self, time: f64, steps: u32, cycle: &[TransitionIndex], exact: bool) -> Failure {
@@ -247,7 +296,7 @@ impl Reporter<'_> {
 
     /// The transition whose guard reads the watch in the present location, else the rate that does.
     fn watch_span(&self, watch: WatchIndex) -> Option<Span> {
-        let reads = |node: sophy_ir::NodeId| {
+        let reads = |node: NodeId| {
             self.system.graph.dependencies([node]).into_iter().any(|leaf| match leaf {
                 Leaf::Truth(i) => self.system.truths[i.position()].watch == watch,
                 Leaf::Stair(i) => {
@@ -261,13 +310,13 @@ impl Reporter<'_> {
             self.engine.locations()[t.automaton.position()] == t.source
                 && t.trigger.guard().is_some_and(reads)
         });
-        let rate = || {
-            let states = (0..self.system.states.len()).map(StateIndex::new);
-            let mut reading =
-                states.filter(|&s| reads(self.system.states[s.position()].rate.at(self.location_of(s))));
-            reading.next().and_then(|s| self.rate_span(s))
-        };
-        transition.and_then(|t| t.span).or_else(rate)
+        let rates = self.system.states.iter().map(|state| &state.rate);
+        let values = self.system.algebraics.iter().map(|z| &z.value).chain(&self.system.guarded);
+        let row = rates.chain(values).find_map(|row| {
+            let location = self.engine.locations()[row.owner.position()];
+            reads(row.at(location)).then(|| row.spans[location.position()])
+        });
+        transition.and_then(|t| t.span).or(row.flatten())
     }
 
     fn watch_sources(&self, watch: WatchIndex) -> Vec<Leaf> {
@@ -285,7 +334,7 @@ impl Reporter<'_> {
                     Leaf::Input(i) => states + i.0,
                     _ => return None,
                 };
-                let value = self.engine.value(sophy_field::SourceIndex(source), time);
+                let value = self.engine.value(SourceIndex(source), time);
                 Some(format!("{} = {value}", self.system.leaf_name(leaf)))
             })
             .collect();

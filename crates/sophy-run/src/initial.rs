@@ -2,6 +2,7 @@
 //! sections; for a mode that nothing initialises the sign of its flag.
 
 use crate::experiment::{Experiment, ExperimentError};
+use crate::tables::outside;
 use sophy_field::LocationIndex;
 use sophy_ir::{Leaf, NodeId, System, Value, evaluate};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -42,14 +43,18 @@ pub(crate) fn initial_states(
         .collect();
     let mut errors = Vec::new();
     let mut values = Vec::with_capacity(sides.len());
-    for (state, value) in system.states.iter().zip(sides) {
+    for (position, (state, value)) in system.states.iter().zip(sides).enumerate() {
         let name = &state.name;
         match value {
             Some(value) if value.is_finite() => values.push(value),
-            Some(value) => errors.push(ExperimentError::new(
-                format!("initial.{name}"),
-                format!("the initial value of state `{name}` is {value}"),
-            )),
+            Some(value) => {
+                let reasons = start.outside(position);
+                let reason = if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
+                errors.push(ExperimentError::new(
+                    format!("initial.{name}"),
+                    format!("the initial value of state `{name}` is {value}{reason}"),
+                ));
+            }
             None => errors.push(
                 ExperimentError::new(
                     format!("initial.{name}"),
@@ -107,22 +112,33 @@ impl Start<'_> {
         row.by_location.get(location.position()).copied()
     }
 
+    /// Tables read outside of their range by what a state starts with.
+    fn outside(&self, state: usize) -> Vec<String> {
+        let assigned = self.system.initial.iter().filter(|reset| reset.state.position() == state);
+        let declared = self.system.states.get(state).and_then(|state| state.initial);
+        let roots = assigned.map(|reset| reset.value).chain(declared);
+        let none = BTreeMap::new();
+        let tables = |root| outside(&self.system.graph, root, &mut |leaf| self.leaf(leaf, &none));
+        roots.flat_map(tables).collect()
+    }
+
     fn expression(&self, node: NodeId, algebraics: &BTreeMap<usize, f64>) -> f64 {
-        let mut leaf = |leaf: Leaf| {
-            Value::Real(match leaf {
-                Leaf::Parameter(i) => self.parameters.get(i.position()).copied().unwrap_or(f64::NAN),
-                Leaf::Input(i) => self.inputs.get(i.position()).map_or(f64::NAN, |line| line[0]),
-                Leaf::Time => self.time,
-                Leaf::State(i) => match self.states.get(i.position()) {
-                    Some(Some(value)) => *value,
-                    _ if self.is_open(i.position()) => 0.0,
-                    _ => f64::NAN,
-                },
-                Leaf::Algebraic(z) => algebraics.get(&z.position()).copied().unwrap_or(f64::NAN),
+        evaluate(&self.system.graph, node, &mut |leaf| self.leaf(leaf, algebraics)).real()
+    }
+
+    fn leaf(&self, leaf: Leaf, algebraics: &BTreeMap<usize, f64>) -> Value {
+        Value::Real(match leaf {
+            Leaf::Parameter(i) => self.parameters.get(i.position()).copied().unwrap_or(f64::NAN),
+            Leaf::Input(i) => self.inputs.get(i.position()).map_or(f64::NAN, |line| line[0]),
+            Leaf::Time => self.time,
+            Leaf::State(i) => match self.states.get(i.position()) {
+                Some(Some(value)) => *value,
+                _ if self.is_open(i.position()) => 0.0,
                 _ => f64::NAN,
-            })
-        };
-        evaluate(&self.system.graph, node, &mut leaf).real()
+            },
+            Leaf::Algebraic(z) => algebraics.get(&z.position()).copied().unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        })
     }
 
     /// Whether a state takes the sign of a flag.

@@ -13,6 +13,7 @@ mod inputs;
 mod recorder;
 mod run;
 mod simulate;
+mod tables;
 
 pub use experiment::{AtEnd, Experiment, ExperimentError, Interpolation, Method, QuantumRule, Signal};
 pub use failure::Failure;

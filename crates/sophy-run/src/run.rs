@@ -230,7 +230,7 @@ impl Run {
     }
 
     fn failure(&self, error: &HybridError) -> Failure {
-        Failure::new(error, &self.system, self.engine.as_ref())
+        Failure::new(error, &self.system, &self.compiled.parameters, self.engine.as_ref())
     }
 
     /// Time reached, s.

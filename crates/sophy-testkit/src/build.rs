@@ -1,8 +1,8 @@
 use sophy_ir::{
     Actions, Assignment, Binary, Body, Class, ClassIndex, Comparison, Composite, Emission, Equation,
     EventEnd, EventPort, EventSection, EventWire, Graph, HybridAutomaton, Leaf, Location, Member, Model,
-    NodeId, Port, Quantity, Sources, Special, Transition, Trigger, Unary, Variable, VariableId, VariableKind,
-    Wire,
+    NodeId, Port, Quantity, Sources, Special, Table, Transition, Trigger, Unary, Variable, VariableId,
+    VariableKind, Wire,
 };
 
 /// Builds a [`Model`] by hand: components side by side, all expressions in one graph, variables numbered
@@ -15,8 +15,9 @@ pub struct Build {
     classes: Vec<Class>,
     /// What each class does.
     automata: Vec<HybridAutomaton>,
-    /// What `smooth` stands around, with its component.
-    smooth: Vec<(usize, NodeId)>,
+    /// What else expressions read, with its component.
+    specials: Vec<(usize, Special)>,
+    tables: Vec<Table>,
     wires: Vec<(VariableId, VariableId)>,
     event_wires: Vec<((usize, String), (usize, String))>,
 }
@@ -48,7 +49,7 @@ impl Build {
         if let [only] = classes.as_slice()
             && only.name.is_empty()
         {
-            return Model { classes, ..Model::default() };
+            return Model { classes, tables: self.tables.clone(), ..Model::default() };
         }
         let mut composite = Composite::default();
         for (position, class) in classes.iter().enumerate() {
@@ -81,7 +82,7 @@ impl Build {
         }
         let root = ClassIndex(classes.len() as u32);
         classes.push(Class { body: Body::Composite(composite), ..Class::default() });
-        Model { classes, root, ..Model::default() }
+        Model { classes, root, tables: self.tables.clone(), ..Model::default() }
     }
 
     fn port(&self, id: VariableId) -> Port {
@@ -102,14 +103,13 @@ impl Build {
                 other => graph.leaf(other),
             });
         };
-        for &(of, mut inside) in &self.smooth {
+        for (of, special) in &self.specials {
             // Numbered through, as the leaves are: others have a place, but nothing in it.
-            if of == component {
-                node(&mut inside);
-                class.specials.push(Special::Smooth(inside));
-            } else {
-                class.specials.push(Special::Never);
+            let mut special = if *of == component { special.clone() } else { Special::Never };
+            if let Special::Smooth(inside) | Special::Table { at: inside, .. } = &mut special {
+                node(inside);
             }
+            class.specials.push(special);
         }
         let local = |id: &mut VariableId| *id = self.variables[id.0 as usize].1;
         for variable in &mut class.variables {
@@ -357,8 +357,22 @@ impl Build {
 
     /// `smooth(a)` in the component begun last.
     pub fn smooth(&mut self, a: NodeId) -> NodeId {
-        self.smooth.push((self.classes.len() - 1, a));
-        self.graph.leaf(Leaf::Special(self.smooth.len() as u32 - 1))
+        self.special(Special::Smooth(a))
+    }
+
+    /// A table at a point, in the component begun last.
+    pub fn table(&mut self, table: &Table, at: NodeId) -> NodeId {
+        let known = self.tables.iter().position(|known| known == table);
+        let number = known.unwrap_or_else(|| {
+            self.tables.push(table.clone());
+            self.tables.len() - 1
+        });
+        self.special(Special::Table { table: number, at })
+    }
+
+    fn special(&mut self, special: Special) -> NodeId {
+        self.specials.push((self.classes.len() - 1, special));
+        self.graph.leaf(Leaf::Special(self.specials.len() as u32 - 1))
     }
 
     /// `a + b`.

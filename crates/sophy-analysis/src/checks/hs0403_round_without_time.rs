@@ -28,10 +28,7 @@ pub(crate) fn find(locations: &[BuiltLocation<'_>], graph: &Graph, diagnostics: 
 }
 
 fn is_level(transition: &BuiltTransition<'_>) -> bool {
-    matches!(
-        transition.declaration.trigger,
-        TriggerDeclaration::When(_) | TriggerDeclaration::WhenOrOn(..)
-    )
+    matches!(transition.declaration.trigger, TriggerDeclaration::When(_) | TriggerDeclaration::WhenOrOn(..))
 }
 
 /// Whether a transition assigns something that its guard reads.

@@ -4,22 +4,20 @@ use super::matching::match_constraints;
 use super::statements::{assigned_names, equation_names};
 use crate::checks::{
     hs0101_unknown_name, hs0102_equation_for_undeclared_state, hs0103_reset_of_undeclared_state,
-    hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice, hs0108_defined_twice,
-    hs0109_output_without_map, hs0110_state_without_equation, hs0112_location_declared_twice,
-    hs0113_transition_declared_twice, hs0114_unknown_destination, hs0115_unknown_initial_location,
-    hs0116_unreachable_location, hs0117_hidden_name, hs0118_unused, hs0119_no_location,
-    hs0127_declaration_for_another_kind, hs0143_local_without_equation, hs0144_flag_without_event, hs0146_assigned_by_two,
-    hs0201_unknown_function, hs0206_natural_logarithm, hs0401_constant_guard, hs0402_taken_on_entry,
-    hs0403_round_without_time,
+    hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice,
+    hs0108_defined_twice, hs0109_output_without_map, hs0110_state_without_equation,
+    hs0112_location_declared_twice, hs0113_transition_declared_twice, hs0114_unknown_destination,
+    hs0115_unknown_initial_location, hs0116_unreachable_location, hs0117_hidden_name, hs0118_unused,
+    hs0119_no_location, hs0127_declaration_for_another_kind, hs0143_local_without_equation,
+    hs0144_flag_without_event, hs0146_assigned_by_two, hs0201_unknown_function, hs0206_natural_logarithm,
+    hs0401_constant_guard, hs0402_taken_on_entry, hs0403_round_without_time,
 };
 use crate::declarations::{
     ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration, VariableRole,
 };
 use crate::lower::{SymbolKind, SymbolValue};
 use sophy_diagnostics::{Diagnostics, Span};
-use sophy_ir::{
-    Actions, Binary, EventSection, Leaf, Node, NodeId, Rule, Special, VariableId, VariableKind,
-};
+use sophy_ir::{Actions, Binary, EventSection, Leaf, Node, NodeId, Rule, Special, VariableId, VariableKind};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Something that is defined or assigned although it cannot be.
@@ -207,7 +205,12 @@ impl Builder<'_, '_> {
     }
 
     /// Complains about actions of equal priority that can meet at an instant and assign one variable.
-    pub(crate) fn check_meetings(&mut self, locations: &[BuiltLocation<'_>], events: &[EventSection], rules: &[Rule]) {
+    pub(crate) fn check_meetings(
+        &mut self,
+        locations: &[BuiltLocation<'_>],
+        events: &[EventSection],
+        rules: &[Rule],
+    ) {
         /// What acts, with its priority; what has one number never acts together.
         type Actor<'n> = (usize, i32, &'n Actions, Span);
         let mut actors: Vec<Actor<'_>> = Vec::new();
@@ -234,7 +237,12 @@ impl Builder<'_, '_> {
                 continue;
             }
             group += 1;
-            actors.push((group, rule.priority, &rule.actions, rule.span.unwrap_or(self.declaration.name.span)));
+            actors.push((
+                group,
+                rule.priority,
+                &rule.actions,
+                rule.span.unwrap_or(self.declaration.name.span),
+            ));
         }
         let mut first: HashMap<(VariableId, i32), (usize, NodeId, Span)> = HashMap::new();
         let mut found = Vec::new();
@@ -243,8 +251,8 @@ impl Builder<'_, '_> {
                 let key = (assignment.variable, priority);
                 match first.get(&key) {
                     Some(&(other, right, other_span)) if other != group => {
-                        if let [Some(Some(a)), Some(Some(b))] =
-                            [other, group].map(|g| g.checked_sub(1).map(|g| surfaces.get(g).copied().flatten()))
+                        if let [Some(Some(a)), Some(Some(b))] = [other, group]
+                            .map(|g| g.checked_sub(1).map(|g| surfaces.get(g).copied().flatten()))
                             && a.quantity == b.quantity
                             && a.level != b.level
                         {
@@ -408,7 +416,9 @@ impl Builder<'_, '_> {
                     !location.defined.values.contains_key(&id)
                         && !meant.contains(base)
                         && lives(base)
-                        && !(is_local && assigned.contains(base) && !read.contains(&sophy_ir::Leaf::Variable(id)))
+                        && !(is_local
+                            && assigned.contains(base)
+                            && !read.contains(&sophy_ir::Leaf::Variable(id)))
                 })
                 .collect();
             let matched = match_constraints(&self.graph, &location.defined, &location.constraints, &lacking);

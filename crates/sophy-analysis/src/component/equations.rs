@@ -1,8 +1,8 @@
 use super::builder::Builder;
 use super::checks::Stray;
 use crate::checks::{
-    hs0108_defined_twice, hs0117_hidden_name, hs0111_output_differs_from_state, hs0129_not_defined_by_equations,
-    hs0130_branches_differ, hs0131_loop_bounds,
+    hs0108_defined_twice, hs0111_output_differs_from_state, hs0117_hidden_name,
+    hs0129_not_defined_by_equations, hs0130_branches_differ, hs0131_loop_bounds,
 };
 use crate::declarations::{
     ComponentKind, Dialect, Direction, EquationDeclaration, EquationItem, Equations, ExpressionText, Loop,

@@ -2,7 +2,8 @@ use super::builder::Builder;
 use super::checks::Stray;
 use super::equations::shape_of_part;
 use crate::checks::{
-    hs0108_defined_twice, hs0126_out_of_range, hs0132_unknown_event, hs0133_not_assignable, hs0134_hold_without_flag, hs0147_read_before_assigned,
+    hs0108_defined_twice, hs0126_out_of_range, hs0132_unknown_event, hs0133_not_assignable,
+    hs0134_hold_without_flag, hs0147_read_before_assigned,
 };
 use crate::declarations::{
     ComponentDeclaration, Dialect, EquationItem, ExpressionText, Spanned, Statement, Target,
@@ -354,7 +355,8 @@ pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeMap<&st
 /// Names that some equation `name = …` of a component defines, with a place where it does.
 pub(crate) fn equation_names(declaration: &ComponentDeclaration) -> BTreeMap<&str, Span> {
     let mut names = BTreeMap::new();
-    let sections = std::iter::once(&declaration.equations).chain(declaration.locations.iter().map(|l| &l.equations));
+    let sections =
+        std::iter::once(&declaration.equations).chain(declaration.locations.iter().map(|l| &l.equations));
     let mut pending: Vec<&EquationItem> = sections.flat_map(|e| e.dynamics.iter().chain(&e.output)).collect();
     while let Some(item) = pending.pop() {
         match item {

@@ -1,7 +1,7 @@
 use super::library::{Entry, Library};
 use crate::checks::{
-    hs0107_declared_twice, hs0108_defined_twice, hs0126_out_of_range, hs0138_unknown_component, hs0139_unknown_parameter,
-    hs0140_array_of_components,
+    hs0107_declared_twice, hs0108_defined_twice, hs0126_out_of_range, hs0138_unknown_component,
+    hs0139_unknown_parameter, hs0140_array_of_components,
 };
 use crate::component::{Builder, Given};
 use crate::declarations::{ComponentKind, ExpressionText, MemberDeclaration, MemberItem, Spanned};
@@ -257,14 +257,15 @@ fn parameters<'a>(
         }
         for (&id, &node) in ids.iter().zip(&nodes) {
             let variable = class.variable(id);
-            let bounds = variable.range.and_then(|[low, high]| {
-                Some((class.graph.as_number(low)?, class.graph.as_number(high)?))
-            });
+            let bounds = variable
+                .range
+                .and_then(|[low, high]| Some((class.graph.as_number(low)?, class.graph.as_number(high)?)));
             if let (Some((low, high)), Some(value)) = (bounds, builder.known_value(node))
                 && !(low..=high).contains(&value)
             {
                 let declared = variable.span.unwrap_or(name.span);
-                let found = hs0126_out_of_range::diagnostic(&name.value, value, low, high, text.span, declared);
+                let found =
+                    hs0126_out_of_range::diagnostic(&name.value, value, low, high, text.span, declared);
                 builder.report(found);
             }
         }

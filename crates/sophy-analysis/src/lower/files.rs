@@ -199,7 +199,7 @@ pub(super) fn value_at(table: &Table, x: f64) -> Option<f64> {
         Interpolation::Hold => value(before),
         Interpolation::Linear => {
             let (y, next) = (value(before)?, value(after)?);
-            Some(y + (next - y) * ((x - low) / (high - low)))
+            Some(y + (x - low) * ((next - y) / (high - low)))
         }
         Interpolation::Cubic => None,
     }

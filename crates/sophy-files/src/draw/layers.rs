@@ -78,6 +78,18 @@ pub(super) struct Hop {
     pub(super) to_offset: f64,
 }
 
+/// Where a hop meets an item.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    pub(super) hop: usize,
+    /// Whether the hop begins here.
+    pub(super) begins: bool,
+    /// Whether it turns round in the channel.
+    pub(super) turns: bool,
+    /// The cell at its other end.
+    pub(super) other: usize,
+}
+
 /// Ranks and their order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layers {
@@ -262,7 +274,7 @@ impl Layers {
             (target + 1..source).rev().collect()
         };
         // Seen from the end where it begins the 1st, 3rd … cell of an automaton's arrow is in a rank for labels.
-        let labelled = between.len() / 2 & !1;
+        let labelled = (between.len() / 2) & !1;
         let mut at = link.from;
         for (position, &rank) in between.iter().enumerate() {
             let label = position == labelled;
@@ -405,30 +417,38 @@ impl Layers {
     /// Spreads the arrows of every item over its two sides, in the order of where they come from.
     fn spread(&mut self, items: &[Item]) {
         let position = self.positions();
-        // Per item and side: (turns, position of the other end, hop, whether it begins here).
-        let mut sides: Vec<[Vec<(bool, f64, usize, bool)>; 2]> = vec![Default::default(); items.len()];
+        for (item, sides) in items.iter().zip(self.sides(items.len())) {
+            for mut side in sides {
+                // Of loops the outermost, which ends lowest, begins highest: so they do not cross.
+                let height = |end: &End| if end.turns { -position[end.other] } else { position[end.other] };
+                side.sort_by(|a, b| a.turns.cmp(&b.turns).then(height(a).total_cmp(&height(b))));
+                let step = (item.height / (side.len() + 1) as f64).min(WIDEST_STEP);
+                for (place, end) in side.iter().enumerate() {
+                    *self.offset(end) = (place as f64 - 0.5 * (side.len() - 1) as f64) * step;
+                }
+            }
+        }
+    }
+
+    /// The ends of arrows at the left and the right side of every item, in written order.
+    pub(super) fn sides(&self, items: usize) -> Vec<[Vec<End>; 2]> {
+        let mut sides: Vec<[Vec<End>; 2]> = vec![Default::default(); items];
         for (number, hop) in self.hops.iter().enumerate() {
             for (begins, cell, other) in [(true, hop.from, hop.to), (false, hop.to, hop.from)] {
                 if let Some(sides) = sides.get_mut(cell) {
                     let turns = self.cells[cell].rank == self.cells[other].rank;
                     let right = hop.channel > self.cells[cell].rank;
-                    sides[usize::from(right)].push((turns, position[other], number, begins));
+                    sides[usize::from(right)].push(End { hop: number, begins, turns, other });
                 }
             }
         }
-        for (item, sides) in items.iter().zip(&mut sides) {
-            for side in sides {
-                // Of loops the outermost, which ends lowest, begins highest: so they do not cross.
-                let height = |end: &(bool, f64, usize, bool)| if end.0 { -end.1 } else { end.1 };
-                side.sort_by(|a, b| a.0.cmp(&b.0).then(height(a).total_cmp(&height(b))).then(a.2.cmp(&b.2)));
-                let step = (item.height / (side.len() + 1) as f64).min(WIDEST_STEP);
-                for (place, &(_, _, hop, begins)) in side.iter().enumerate() {
-                    let offset = (place as f64 - 0.5 * (side.len() - 1) as f64) * step;
-                    let hop = &mut self.hops[hop];
-                    *(if begins { &mut hop.from_offset } else { &mut hop.to_offset }) = offset;
-                }
-            }
-        }
+        sides
+    }
+
+    /// The height of an end, from the middle of its item.
+    pub(super) fn offset(&mut self, end: &End) -> &mut f64 {
+        let hop = &mut self.hops[end.hop];
+        if end.begins { &mut hop.from_offset } else { &mut hop.to_offset }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Heights of cells: as near to what they are connected with as their order and their sizes allow.
 
-use super::layers::{Flow, Item, Layers};
+use super::layers::{End, Flow, Item, Layers};
 
 /// Room between two boxes, two arrows, and an arrow and a box that stand one above the other, px.
 const BOX_GAP: f64 = 26.0;
@@ -99,35 +99,22 @@ fn relax(
 /// Moves the ends of arrows along the sides of the items, in their order, so that arrows are straight where they can
 /// be. Only where arrows may end anywhere.
 fn straighten(layers: &mut Layers, items: &[Item], y: &[f64]) {
-    // Per item and side: (offset, wanted offset, hop, whether it begins here).
-    let mut sides: Vec<[Vec<(f64, f64, usize, bool)>; 2]> = vec![Default::default(); items.len()];
-    for (number, hop) in layers.hops.iter().enumerate() {
-        let ends = [(true, hop.from, hop.to, hop.from_offset), (false, hop.to, hop.from, hop.to_offset)];
-        for (begins, cell, other, offset) in ends {
-            if let Some(sides) = sides.get_mut(cell) {
-                let turns = layers.cells[cell].rank == layers.cells[other].rank;
-                let wanted = if turns { offset } else { y[other] - y[cell] };
-                let right = hop.channel > layers.cells[cell].rank;
-                sides[usize::from(right)].push((offset, wanted, number, begins));
-            }
-        }
-    }
-    for (item, sides) in items.iter().zip(&mut sides) {
+    for (number, sides) in layers.sides(items.len()).into_iter().enumerate() {
         for side in sides {
-            side.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let most = 0.5 * item.height - CORNER;
-            let gap = NEAREST_ENDS.min(2.0 * most / side.len() as f64);
+            let mut ends: Vec<(f64, End)> = side.into_iter().map(|end| (*layers.offset(&end), end)).collect();
+            ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let most = 0.5 * items[number].height - CORNER;
+            let gap = NEAREST_ENDS.min(2.0 * most / ends.len() as f64);
             let mut least = -most;
-            for end in side.iter_mut() {
-                end.1 = end.1.max(least);
-                least = end.1 + gap;
+            for (offset, end) in &mut ends {
+                let wanted = if end.turns { *offset } else { y[end.other] - y[number] };
+                *offset = wanted.max(least);
+                least = *offset + gap;
             }
             let mut largest = most;
-            for end in side.iter_mut().rev() {
-                end.1 = end.1.min(largest);
-                largest = end.1 - gap;
-                let hop = &mut layers.hops[end.2];
-                *(if end.3 { &mut hop.from_offset } else { &mut hop.to_offset }) = end.1;
+            for (offset, end) in ends.iter().rev() {
+                *layers.offset(end) = offset.min(largest);
+                largest = offset.min(largest) - gap;
             }
         }
     }

@@ -223,7 +223,9 @@ impl Sheet {
     fn line(&mut self, line: &Line, (x, y): (f64, f64)) {
         if let Some(name) = &line.derivative_of {
             self.svg.text((x, y), Anchor::Start, TEXT, name);
-            let middle = x + 0.5 * width(name, TEXT);
+            // Of an element the letter has the dot, not the index.
+            let letters = name.split('[').next().unwrap_or(name);
+            let middle = x + 0.5 * width(letters, TEXT);
             self.svg.circle((middle, y - 10.6), 1.2, &format!("fill=\"{INK}\""));
         }
         self.svg.text((x + derivative_width(line), y), Anchor::Start, TEXT, &line.text);
@@ -251,7 +253,7 @@ impl Sheet {
             Symbol::Signal => self.svg.shape(&polygon(&[(-4.5, 3.5), (4.5, 3.5), (0.0, -4.5)]), &open),
             Symbol::Event => self.svg.shape(&polygon(&[(-3.5, -4.5), (-3.5, 4.5), (4.5, 0.0)]), &open),
             Symbol::Text => {
-                self.svg.shape(&polygon(&[(-5.0, 0.0), (0.0, -5.0), (5.0, 0.0), (0.0, 5.0)]), &open)
+                self.svg.shape(&polygon(&[(-5.0, 0.0), (0.0, -5.0), (5.0, 0.0), (0.0, 5.0)]), &open);
             }
             Symbol::Integer => self.svg.shape(&polygon(&[(-r, -r), (r, -r), (r, r), (-r, r)]), &open),
             Symbol::Real => self.svg.circle((x, y), 3.5, &format!("fill=\"{INK}\"")),

@@ -32,7 +32,6 @@ impl Flattener<'_> {
             Some(Special::Delayed { .. }) => Feature::Delayed,
             Some(Special::Noise { .. }) => Feature::Noise,
             Some(Special::Chance(_)) => Feature::Chance,
-            Some(Special::Table { .. }) => Feature::Table,
             Some(Special::Never) => Feature::Never,
             _ => Feature::Edge,
         };

@@ -48,6 +48,8 @@ pub(super) fn rebuild(graph: &mut Graph, node: Node) -> NodeId {
         Node::Compare(comparison, a, b) => {
             Node::Compare(comparison, as_number(graph, a), as_number(graph, b))
         }
+        Node::Locate(column, a) => Node::Locate(column, as_number(graph, a)),
+        Node::Lookup(column, a) => Node::Lookup(column, as_number(graph, a)),
         Node::Not(a) => Node::Not(as_condition(graph, a)),
         Node::And(a, b) => Node::And(as_condition(graph, a), as_condition(graph, b)),
         Node::Or(a, b) => Node::Or(as_condition(graph, a), as_condition(graph, b)),

@@ -104,6 +104,10 @@ impl Flattener<'_> {
                     let inner = scratch.get(*e).unwrap_or_else(|| self.nothing());
                     conditions::smooth(&mut self.system.graph, inner)
                 }
+                Some(Special::Table { table, at }) => {
+                    let at = scratch.get(*at).unwrap_or_else(|| self.nothing());
+                    self.table(*table, at)
+                }
                 _ => self.await_special(context, special),
             },
             other => {

@@ -14,6 +14,7 @@ mod facts;
 mod initial;
 mod parameters;
 mod smooth;
+mod tables;
 mod tree;
 mod values;
 mod variables;
@@ -26,6 +27,7 @@ use facts::Facts;
 use sophy_field::{AutomatonIndex, StateIndex};
 use sophy_ir::{Model, NodeId, System};
 use std::collections::HashMap;
+use tables::Columns;
 use tree::Tree;
 
 /// The flat system of a model; kinks are still as written.
@@ -71,6 +73,8 @@ struct Flattener<'a> {
     location_numbers: HashMap<u32, NodeId>,
     /// The flag that assigns a mode without value at the start; `None` if several do.
     flag_of: HashMap<StateIndex, Option<NodeId>>,
+    /// Per table of the model: its columns, once it is read.
+    tables: Vec<Option<Columns>>,
     /// What cannot be run yet and is read as a value or condition, by place.
     awaited: HashMap<(u32, Part), NodeId>,
 }
@@ -90,6 +94,7 @@ impl<'a> Flattener<'a> {
             pending: Vec::new(),
             location_numbers: HashMap::new(),
             flag_of: HashMap::new(),
+            tables: model.tables.iter().map(|_| None).collect(),
             awaited: HashMap::new(),
             tree,
         }

@@ -17,3 +17,4 @@ mod shapes;
 mod simultaneous;
 mod support;
 mod switches;
+mod tables;

@@ -395,7 +395,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         for (input, &line) in start.inputs.iter().enumerate() {
             self.set_input(e, input, line, t);
         }
-        self.records[e.layout.time().position()] = Record::line(t, 1.0, t);
+        self.records[e.layout.time().position()] = Record::line(0.0, 1.0, 0.0);
         self.locations.copy_from_slice(start.locations);
         for (code, location) in e.automata.iter().zip(start.locations) {
             for &watch in &code.armed[location.position()] {

@@ -21,6 +21,7 @@
 mod engine;
 mod record;
 mod settings;
+mod stairs;
 mod watches;
 
 pub use engine::Qss;

@@ -24,7 +24,7 @@ pub(super) struct WatchRecord {
     /// What the agenda's time is: a root ahead, or a change at the joint of two segments.
     due: Due,
     /// Taken off the difference.
-    bias: f64,
+    pub(super) bias: f64,
     /// Last sign change, s, and how often at that instant.
     last: f64,
     repeats: u32,
@@ -49,6 +49,8 @@ enum Due {
     Joint,
     /// The end of what was searched so far.
     Search,
+    /// The stair of a table is outside of its range, and no instant is left to bring it back.
+    Outside,
 }
 
 impl Default for WatchRecord {
@@ -127,6 +129,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         if due == Due::Search {
             return self.predict(e, watch, t);
         }
+        if due == Due::Outside {
+            return self.outside(e, watch, t);
+        }
         let c = self.difference(e, watch, t)?;
         let decided = self.watches[watch.position()].sign;
         let sign = if due == Due::Root && decided != Sign::Zero {
@@ -157,6 +162,10 @@ impl<const ORDER: usize> Qss<ORDER> {
             record.dirty = false;
             let fresh = std::mem::replace(&mut record.fresh, Fresh::No);
             if record.armed == 0 {
+                continue;
+            }
+            if self.beyond(e, watch).is_some() {
+                self.predict(e, watch, t)?;
                 continue;
             }
             let sign = match fresh {
@@ -197,7 +206,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             let mut changed = false;
             if let Some((stair, _)) = e.watches[index].stair {
                 let argument = self.value_of(e, &e.watches[index].left, t, 1)[0];
-                changed |= self.set_scalar(e.layout.stairs + stair, argument.floor());
+                let step = e.stairs[stair as usize].step(&self.memory, argument);
+                changed |= self.set_scalar(e.layout.stairs + stair, step);
             }
             let value = self.value_of(e, &e.watches[index].formula, t, 1)[0];
             changed |= self.publish(e, watch, Sign::of(value - record.bias));
@@ -234,7 +244,13 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// The sign just right of `t`: the first coefficient that is not zero decides. Where all that the engine
     /// carries vanish, a watch that is not affine may still leave zero at a higher order: enclosures decide.
-    fn sign_after(&mut self, e: &Equations, watch: WatchIndex, t: f64, c: &[f64; 3]) -> Result<Sign, Fault> {
+    pub(super) fn sign_after(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+        c: &[f64; 3],
+    ) -> Result<Sign, Fault> {
         if *c != [0.0; 3] || e.watches[watch.position()].affine {
             return Ok(Sign::after(c));
         }
@@ -295,44 +311,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         changed
     }
 
-    /// A stair is stepped when its lower watch is negative or its upper one is not; whether it was.
-    fn step_stair(
-        &mut self,
-        e: &Equations,
-        watch: WatchIndex,
-        sign: Sign,
-        located: bool,
-        t: f64,
-    ) -> Result<bool, Fault> {
-        let Some((stair, step)) = e.watches[watch.position()].stair else { return Ok(false) };
-        let inside = if step < 0.0 { sign != Sign::Negative } else { sign == Sign::Negative };
-        if inside {
-            return Ok(false);
-        }
-        let at = e.layout.stairs + stair;
-        let argument = self.value_of(e, &e.watches[watch.position()].left, t, 1)[0];
-        let next = self.memory[at as usize] + step;
-        let edge = if step < 0.0 { next + 1.0 } else { next };
-        // On the edge, located or to rounding: the next one. Thrown further by a jump: where it is.
-        let on_edge = located || (argument - edge).abs() <= 4.0 * (edge.abs().next_up() - edge.abs());
-        self.set_scalar(at, if on_edge { next } else { argument.floor() });
-        for other in e.stairs[stair as usize] {
-            let index = other.position();
-            if self.watches[index].armed > 0 {
-                let raw = self.raw_difference(e, other, t)?[0];
-                let takes_over = on_edge && other != watch;
-                self.watches[index].bias = if takes_over { raw } else { 0.0 };
-                let c = self.difference(e, other, t)?;
-                self.watches[index].sign = self.sign_after(e, other, t, &c)?;
-                self.mark(other);
-            }
-        }
-        Ok(true)
-    }
-
     /// Writes a truth or stair; whether it changed.
     #[allow(clippy::float_cmp)] // the same whole number or not
-    fn set_scalar(&mut self, at: u32, value: f64) -> bool {
+    pub(super) fn set_scalar(&mut self, at: u32, value: f64) -> bool {
         if self.memory[at as usize] == value {
             return false;
         }
@@ -342,11 +323,22 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// When the decided sign is first lost on the present segments (thesis §8.3.2, timeToHit).
-    fn predict(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<(), Fault> {
+    pub(super) fn predict(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<(), Fault> {
         self.statistics.predictions += 1;
+        if let Some(outside) = self.beyond(e, watch) {
+            self.watches[watch.position()].due = Due::Outside;
+            // What else happens at this instant may still bring it back.
+            let time = if outside { t.next_up() } else { f64::INFINITY };
+            self.agenda.set(e.layout.states + watch.0, time);
+            return Ok(());
+        }
         let c = self.difference(e, watch, t)?;
         let sign = self.watches[watch.position()].sign;
-        let (time, due) = if e.watches[watch.position()].affine {
+        let code = &e.watches[watch.position()];
+        let (time, due) = if code.clock && sign == Sign::Negative && c[0] < 0.0 {
+            // Not `t` plus the rest, which would be rounded.
+            (self.value_of(e, &code.right, t, 1)[0].max(t), Due::Root)
+        } else if code.affine {
             match parabola_crossing(c, sign) {
                 Some(delay) => (t + delay, if delay > 0.0 { Due::Root } else { Due::Joint }),
                 None => (f64::INFINITY, Due::Root),
@@ -407,13 +399,18 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// Taylor coefficients of the watched difference at `t`, the bias taken off.
-    fn difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
+    pub(super) fn difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
         let mut c = self.raw_difference(e, watch, t)?;
         c[0] -= self.watches[watch.position()].bias;
         Ok(c)
     }
 
-    fn raw_difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
+    pub(super) fn raw_difference(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+    ) -> Result<[f64; 3], Fault> {
         let [value, c1, c2] = self.value_of(e, &e.watches[watch.position()].formula, t, ORDER + 1);
         if !value.is_finite() {
             return Err(Fault::WatchNotFinite { watch, time: t, value });
@@ -424,7 +421,7 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// A formula on the series side at `t`.
     #[inline]
-    fn value_of(&mut self, e: &Equations, formula: &Formula, t: f64, orders: usize) -> [f64; 3] {
+    pub(super) fn value_of(&mut self, e: &Equations, formula: &Formula, t: f64, orders: usize) -> [f64; 3] {
         for &source in e.sources(&formula.sources) {
             let at = e.layout.series_of(source);
             let jet = self.records[source.position()].jet_at(t);
