@@ -121,7 +121,8 @@ fn find_root(
 ) -> Option<usize> {
     let own: Vec<usize> =
         (0..library.components.len()).filter(|&k| library.components[k].name.span.source == main).collect();
-    let file = Span::new(main, 0..sources.text(main).len().min(1));
+    let first = sources.text(main).chars().next().map_or(0, char::len_utf8);
+    let file = Span::new(main, 0..first);
     if let Root::Named(name) = root {
         let found = library.named(name);
         if found.is_none() {

@@ -113,7 +113,9 @@ impl<'a> Parser<'a> {
                     .note("every file is checked against the SophySystem.dtd of SOPHY"),
                 );
             } else {
-                let length = rest[1..].find([']', '<']).map_or(rest.len(), |at| at + 1);
+                let first = rest.chars().next().map_or(1, char::len_utf8);
+                let after = rest.get(first..).unwrap_or("");
+                let length = after.find([']', '<']).map_or(rest.len(), |at| at + first);
                 let place = self.take(length);
                 self.diagnostics.push(
                     Diagnostic::error(MALFORMED_TAG, self.span(place), "this is not a declaration")

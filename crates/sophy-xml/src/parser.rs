@@ -1,6 +1,6 @@
 use crate::codes::{BAD_CHARACTER, TOO_MANY_NODES};
 use crate::document::{Element, Node, Place, Text};
-use crate::limits::MAX_NODES;
+use crate::limits::{MAX_MESSAGES, MAX_NODES};
 use crate::tag;
 use sophy_diagnostics::{Diagnostic, Diagnostics, SourceId, Span};
 use std::collections::BTreeMap;
@@ -82,6 +82,10 @@ impl<'a> Parser<'a> {
         let rest = self.rest();
         if rest.is_empty() {
             return self.leave_entity();
+        }
+        if self.diagnostics.iter().count() >= MAX_MESSAGES {
+            self.stopped = true;
+            return false;
         }
         match rest.as_bytes() {
             [b'<', b'!', b'-', b'-', ..] => self.comment(),

@@ -1,6 +1,6 @@
 use crate::codes::{BAD_CHARACTER, BARE_AMPERSAND, BARE_LESS_THAN, EXPANSION, UNKNOWN_ENTITY};
 use crate::document::{Place, Text};
-use crate::limits::{MAX_ENTITY_DEPTH, MAX_EXPANSION};
+use crate::limits::{MAX_ENTITY_DEPTH, max_expansion};
 use crate::parser::{Parser, is_xml_character};
 use crate::tag;
 use sophy_diagnostics::{Diagnostic, closest};
@@ -118,12 +118,13 @@ impl<'a> Parser<'a> {
             return false;
         }
         self.expanded = self.expanded.saturating_add(text.len().max(1));
+        let most = max_expansion(self.inputs.first().map_or(0, |file| file.text.len()));
         let message = if again {
             format!("the entity `{name}` contains itself")
         } else if depth > MAX_ENTITY_DEPTH {
             format!("entities refer to one another more than {MAX_ENTITY_DEPTH} deep")
-        } else if self.expanded > MAX_EXPANSION {
-            format!("the entities of the file expand to more than {MAX_EXPANSION} bytes")
+        } else if self.expanded > most {
+            format!("the entities of the file expand to more than {most} bytes")
         } else {
             return true;
         };

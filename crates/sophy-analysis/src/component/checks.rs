@@ -413,12 +413,10 @@ impl Builder<'_, '_> {
                 .filter(|&id| {
                     let base = self.variables[id.0 as usize].name.split('[').next().unwrap_or("");
                     let is_local = self.variables[id.0 as usize].kind == VariableKind::Local;
-                    !location.defined.values.contains_key(&id)
-                        && !meant.contains(base)
-                        && lives(base)
-                        && !(is_local
-                            && assigned.contains(base)
-                            && !read.contains(&sophy_ir::Leaf::Variable(id)))
+                    let only_assigned =
+                        is_local && assigned.contains(base) && !read.contains(&sophy_ir::Leaf::Variable(id));
+                    let defined = location.defined.values.contains_key(&id) || meant.contains(base);
+                    lives(base) && !defined && !only_assigned
                 })
                 .collect();
             let matched = match_constraints(&self.graph, &location.defined, &location.constraints, &lacking);
@@ -531,7 +529,9 @@ impl Builder<'_, '_> {
                 _ => continue,
             };
             let used = self.symbols.used().contains(name) || self.suggested.contains(name);
-            if !used && !(composite && symbol.kind == SymbolKind::Input) && (xml || !self.is_seen(name)) {
+            let passed_on = composite && symbol.kind == SymbolKind::Input;
+            let visible = !xml && self.is_seen(name);
+            if !(used || passed_on || visible) {
                 found.push(hs0118_unused::diagnostic(what, name, symbol.span));
             }
         }

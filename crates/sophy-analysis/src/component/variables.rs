@@ -239,7 +239,7 @@ impl<'a> Builder<'_, 'a> {
             first,
             shape: declared.shape,
             quantity: declared.port.quantity(),
-            measured: declared.measured.clone(),
+            measured: declared.measured,
             varies: declared.varies,
             choices: Rc::from(declared.range.choices.as_slice()),
             known: None,
@@ -336,13 +336,13 @@ impl<'a> Builder<'_, 'a> {
                     self.compare_with_own(port, (kind, shape), own, &symbol);
                     if declared.unit.is_none() {
                         declared.unit = own.unit.as_ref().map(|unit| unit.value.clone());
-                        declared.measured = symbol.measured.clone();
+                        declared.measured = symbol.measured;
                     } else if own.unit.is_none() {
                         let id = symbol.first.0 as usize;
                         for variable in self.variables.iter_mut().skip(id).take(symbol.shape.len()) {
                             variable.unit.clone_from(&declared.unit);
                         }
-                        let merged = VariableSymbol { measured: declared.measured.clone(), ..symbol.clone() };
+                        let merged = VariableSymbol { measured: declared.measured, ..symbol.clone() };
                         let span = own.name.span;
                         let value = SymbolValue::Variable(merged);
                         self.symbols.redeclare(&name.value, Symbol { kind: own_kind, span, value });
@@ -386,7 +386,7 @@ impl<'a> Builder<'_, 'a> {
             }
         };
         let port_measured = match self.symbols.declared(&name.value).map(|symbol| &symbol.value) {
-            Some(SymbolValue::Variable(symbol)) => symbol.measured.clone(),
+            Some(SymbolValue::Variable(symbol)) => symbol.measured,
             _ => Measured::Unchecked,
         };
         let unit = self.variables.get(first.0 as usize).and_then(|v| v.unit.clone());
@@ -580,7 +580,7 @@ impl<'a> Builder<'_, 'a> {
         let expected = Expected {
             shape: variable.shape,
             quantity: variable.quantity,
-            measured: variable.measured.clone(),
+            measured: variable.measured,
             choices: variable.choices.to_vec(),
             what,
             span: Some(symbol.span),

@@ -1,4 +1,4 @@
-use super::composite::build_composite;
+use super::build::build_composite;
 use crate::component::{Built, Given, Interface, Shared, build};
 use crate::declarations::{ComponentDeclaration, ComponentKind};
 use sophy_ir::{Class, ClassIndex};

@@ -55,7 +55,7 @@ pub(crate) fn compose<'a>(
             .map(|(&weight, &(_, port))| (weight, port))
             .collect();
         let from = match sources.as_slice() {
-            &[(weight, port)] if weight == 1.0 => Sources::One(port),
+            &[(1.0, port)] => Sources::One(port),
             _ => Sources::Sum(std::mem::take(&mut sources)),
         };
         add_wire(builder, Wire { to: row.1, from, span: Some(span) }, span, wiring);

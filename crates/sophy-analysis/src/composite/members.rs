@@ -251,7 +251,7 @@ fn parameters<'a>(
                     given.insert(name.value.clone(), values);
                 }
                 None => {
-                    builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span))
+                    builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span));
                 }
             }
         }

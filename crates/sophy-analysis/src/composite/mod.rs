@@ -1,6 +1,6 @@
 //! Composites: members with their classes, and what connects them.
 
-mod composite;
+mod build;
 mod connections;
 mod library;
 mod matrix;

@@ -17,7 +17,7 @@ use std::ops::Range;
 
 /// How many operations functions and reductions of a component may be written out to, and how many elements a
 /// value may have.
-pub(super) const LARGEST: usize = 1_000_000;
+pub(super) const LARGEST: usize = 200_000;
 
 /// How deep an expression may be nested when functions stand in the place of their calls.
 const DEEPEST: usize = 256;

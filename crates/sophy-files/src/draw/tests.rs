@@ -121,18 +121,18 @@ fn lonely() -> Diagram {
     diagram
 }
 
-/// Pictures to look at, in the folder for temporary files of the build.
 #[test]
 fn every_format_can_be_written() {
-    let folder = Path::new(option_env!("CARGO_TARGET_TMPDIR").unwrap_or("/tmp")).to_path_buf();
-    let folder = if folder.is_dir() { folder } else { std::env::temp_dir() };
+    let folder = std::env::temp_dir().join(format!("sophy-drawings-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("folder");
     for (name, diagram) in all() {
         for extension in ["svg", "png", "dot"] {
-            let path = folder.join(format!("sophy-drawing-{name}.{extension}"));
+            let path = folder.join(format!("{name}.{extension}"));
             draw(&path, &diagram).expect("drawn");
             assert!(std::fs::metadata(&path).expect("there").len() > 200);
         }
     }
+    std::fs::remove_dir_all(&folder).expect("removed");
     let error = draw(Path::new("a.pdf"), &hopper()).expect_err("unknown");
     assert!(error.to_string().contains(".svg, .png, .dot"), "{error}");
 }

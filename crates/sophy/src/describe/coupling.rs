@@ -291,12 +291,11 @@ mod tests {
             }
             let components = strongly_connected(&arcs);
             let of = |node: usize| components.iter().position(|component| component.contains(&node));
-            for a in 0..12 {
-                for b in 0..12 {
-                    let together = a == b || (reaches[a][b] && reaches[b][a]);
-                    assert_eq!(of(a) == of(b), together, "{a} and {b} of {arcs:?}");
-                }
-            }
+            let pairs = (0..12).flat_map(|a| (0..12).map(move |b| (a, b)));
+            pairs.for_each(|(a, b)| {
+                let together = a == b || (reaches[a][b] && reaches[b][a]);
+                assert_eq!(of(a) == of(b), together, "{a} and {b} of {arcs:?}");
+            });
             assert_eq!(components.iter().map(Vec::len).sum::<usize>(), 12);
         }
     }
