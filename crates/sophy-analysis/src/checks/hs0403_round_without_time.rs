@@ -47,10 +47,11 @@ fn circle<'t, 'a>(ways: &[(usize, &'t BuiltTransition<'a>)]) -> Option<Vec<&'t B
         while let Some(way) = next(at) {
             path.push(way);
             at = way.destination?;
-            if at == start {
+            // A transition to its own location may be there for what it emits or counts.
+            if at == start && path.len() > 1 {
                 return Some(path);
             }
-            if path.len() > ways.len() {
+            if at == start || path.len() > ways.len() {
                 break;
             }
         }
@@ -61,11 +62,7 @@ fn circle<'t, 'a>(ways: &[(usize, &'t BuiltTransition<'a>)]) -> Option<Vec<&'t B
 fn diagnostic(circle: &[&BuiltTransition<'_>], locations: &[BuiltLocation<'_>]) -> Diagnostic {
     let names: Vec<String> = circle.iter().map(|way| format!("`{}`", way.declaration.name.value)).collect();
     let first = circle[0].declaration;
-    let message = if circle.len() == 1 {
-        format!("{} leads back to its own location while its guard still holds", names[0])
-    } else {
-        format!("{} lead round in a circle without time passing", names.join(", "))
-    };
+    let message = format!("{} lead round in a circle without time passing", names.join(", "));
     let mut error = Diagnostic::error(CODE, first.name.span, message);
     for way in &circle[1..] {
         error = error.label(way.declaration.name.span, "and then this one");

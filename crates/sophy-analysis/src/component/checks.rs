@@ -131,8 +131,11 @@ impl Builder<'_, '_> {
         }
         let equations = equation_names(d);
         for (name, at) in assigned_names(d) {
-            let is_state = d.variables.iter().any(|v| v.name.value == name && v.role == VariableRole::State);
-            if let (Some(&first), false) = (equations.get(name), is_state || d.dialect == Dialect::Xml) {
+            let is_own = d
+                .variables
+                .iter()
+                .any(|v| v.name.value == name && matches!(v.role, VariableRole::State | VariableRole::Local));
+            if let (Some(&first), false) = (equations.get(name), is_own || d.dialect == Dialect::Xml) {
                 let what = format!("`{name}`, by an equation and by an assignment,");
                 self.report(hs0108_defined_twice::diagnostic(&what, first, at));
             }

@@ -30,10 +30,6 @@ fn units_are_followed() {
             ),
         ),
         (
-            "x > time",
-            &format!("HS0209 x: quantities in `m` and `s` are compared (\"m\") | time: \"s\" | {formula}"),
-        ),
-        (
             "max(x, v)",
             &format!("HS0209 x: `max` gets quantities in `m` and `m/s` (\"m\") | v: \"m/s\" | {formula}"),
         ),
