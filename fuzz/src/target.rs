@@ -38,7 +38,7 @@ pub(crate) struct Cost {
 /// A parser may take this much for each byte of its input …
 const BYTES_PER_BYTE: usize = 100;
 /// … and this much for none.
-const BYTES_FOR_NOTHING: usize = 256 << 10;
+const BYTES_FOR_NOTHING: usize = 512 << 10;
 /// What an input of up to 100 kB may take; more for longer ones and without optimisation.
 const TIME_FOR_100_KB: Duration = Duration::from_secs(if cfg!(debug_assertions) { 4 } else { 1 });
 

@@ -1,7 +1,7 @@
 //! The location in which a run is to start does not exist.
 
 use super::suggestion::suggest;
-use crate::declarations::{ComponentDeclaration, Spanned};
+use crate::declarations::{ComponentDeclaration, Dialect, Spanned};
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
 
 pub(crate) const CODE: Code = Code("HS0115");
@@ -9,7 +9,11 @@ pub(crate) const CODE: Code = Code("HS0115");
 pub(crate) fn find(declarations: &ComponentDeclaration, diagnostics: &mut Diagnostics) {
     let Some(initial) = &declarations.initial_location else { return };
     let locations: Vec<&str> = declarations.locations.iter().map(|l| l.name.value.as_str()).collect();
-    if !initial.value.is_empty() && !locations.is_empty() && !locations.contains(&initial.value.as_str()) {
+    // A file of SOPHY XML without any location is told so.
+    if declarations.dialect == Dialect::Xml && locations.is_empty() {
+        return;
+    }
+    if !initial.value.is_empty() && !locations.contains(&initial.value.as_str()) {
         diagnostics.push(diagnostic(initial, &locations));
     }
 }
