@@ -73,7 +73,8 @@ pub use expressions::*;
 pub use file::*;
 pub use statements::*;
 
-use crate::kinds::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+use crate::kinds::{Sophy, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+use rowan::{Children, GreenNodeData, GreenTokenData, Language, NodeOrToken};
 use std::ops::Range;
 
 /// A typed view of a node.
@@ -208,10 +209,32 @@ fn range_of_token(token: &SyntaxToken) -> Range<usize> {
 /// From the first to the last token that means something.
 fn range_of(node: &SyntaxNode) -> Range<usize> {
     let whole: Range<usize> = node.text_range().into();
+    let (mut start, mut end) = (whole.start, whole.end);
     let meaningful = |token: &SyntaxToken| !token.kind().is_trivia();
-    let first = std::iter::successors(node.first_token(), SyntaxToken::next_token).find(meaningful);
-    let last = std::iter::successors(node.last_token(), SyntaxToken::prev_token).find(meaningful);
-    let start = first.map_or(whole.start, |token| range_of_token(&token).start).max(whole.start);
-    let end = last.map_or(whole.end, |token| range_of_token(&token).end).min(whole.end);
+    let green = node.green();
+    // Nearly always both are at the edges, and below a cursor the tree is cheaper to walk than with cursors.
+    if !edge_has_meaning(&green, |mut parts| parts.next()) {
+        let first = std::iter::successors(node.first_token(), SyntaxToken::next_token).find(meaningful);
+        start = first.map_or(start, |token| range_of_token(&token).start).max(start);
+    }
+    if !edge_has_meaning(&green, |mut parts| parts.next_back()) {
+        let last = std::iter::successors(node.last_token(), SyntaxToken::prev_token).find(meaningful);
+        end = last.map_or(end, |token| range_of_token(&token).end).min(end);
+    }
     start..end.max(start)
+}
+
+/// Whether the first or last token, by the part that is taken of each node, means something.
+fn edge_has_meaning(
+    node: &GreenNodeData,
+    part: impl Fn(Children<'_>) -> Option<NodeOrToken<&GreenNodeData, &GreenTokenData>>,
+) -> bool {
+    let mut at = part(node.children());
+    loop {
+        match at {
+            Some(NodeOrToken::Node(node)) => at = part(node.children()),
+            Some(NodeOrToken::Token(token)) => return !Sophy::kind_from_raw(token.kind()).is_trivia(),
+            None => return false,
+        }
+    }
 }

@@ -89,16 +89,15 @@ pub(crate) fn meant_section(p: &mut Parser<'_>, known: &[&str]) -> Option<Syntax
     if p.current().word().is_some_and(|word| SECTIONS.contains(&word) || word == "events") {
         return Some(p.current());
     }
-    let section_follows = match p.next() {
-        K::Equal | K::Assign | K::Colon | K::LeftBracket | K::Arrow | K::Dot | K::Semicolon => false,
-        K::LeftParenthesis => closest(p.word(), ["event"]).is_some(),
-        _ => true,
-    };
-    let meant = closest(p.word(), known.iter().copied());
-    if p.current() != K::Name || !section_follows || p.word().len() < 3 {
+    if p.current() != K::Name || p.word().len() < 3 {
         return None;
     }
-    let meant = SyntaxKind::of_word(meant?)?;
+    match p.next() {
+        K::Equal | K::Assign | K::Colon | K::LeftBracket | K::Arrow | K::Dot | K::Semicolon => return None,
+        K::LeftParenthesis if closest(p.word(), ["event"]).is_none() => return None,
+        _ => {}
+    }
+    let meant = SyntaxKind::of_word(closest(p.word(), known.iter().copied())?)?;
     unknown_word(p, "a section", known);
     Some(meant)
 }
@@ -167,18 +166,13 @@ fn declaration(p: &mut Parser<'_>) {
         return;
     }
     let word = p.word();
-    let meant = match closest(word, DECLARATIONS.iter().copied()) {
-        _ if DECLARATIONS.contains(&word) => word,
-        Some(meant) if matches!(p.next(), K::Name | K::QuotedName | K::Number) => {
-            unknown_word(p, "a declaration", DECLARATIONS);
-            meant
-        }
-        _ => {
-            unknown_word(p, "a declaration", DECLARATIONS);
-            skip(p);
-            return;
-        }
-    };
+    let known = DECLARATIONS.contains(&word);
+    let meant = if known { Some(word) } else { closest(word, DECLARATIONS.iter().copied()) };
+    if !known {
+        unknown_word(p, "a declaration", DECLARATIONS);
+    }
+    let item_follows = matches!(p.next(), K::Name | K::QuotedName | K::Number);
+    let Some(meant) = meant.filter(|_| known || item_follows) else { return skip(p) };
     match meant {
         "tsample" => clock(p),
         "tdelay" => quantity(p, K::ComputationDelay),
