@@ -6,6 +6,7 @@
 //! language crate never opens a file.
 
 mod diagnostic;
+mod encoding;
 mod render;
 mod source;
 mod suggest;
@@ -13,6 +14,7 @@ mod text_map;
 mod world;
 
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Label, Severity};
+pub use encoding::{NotText, decode};
 pub use render::{Style, render};
 pub use source::{LineColumn, SourceId, Sources, Span};
 pub use suggest::closest;

@@ -1,6 +1,6 @@
 use crate::codes::{NOT_UTF8, TOO_LARGE};
 use crate::limits::MAX_BYTES;
-use sophy_diagnostics::{Diagnostic, SourceId, Sources, Span};
+use sophy_diagnostics::{Diagnostic, NotText, SourceId, Sources, Span};
 
 /// Takes the bytes of the file `name` in as text.
 ///
@@ -11,23 +11,17 @@ pub(crate) fn decode(
     name: &str,
     bytes: &[u8],
 ) -> (SourceId, Result<(), Box<Diagnostic>>) {
-    if bytes.len() > MAX_BYTES {
-        let source = sources.add(name, "");
-        return (source, Err(Box::new(too_large(source, bytes.len()))));
-    }
-    let utf16 = looks_like_utf16(bytes);
-    match std::str::from_utf8(bytes) {
-        Ok(text) if !utf16 => (sources.add(name, text), Ok(())),
-        outcome => {
-            // The replaced text is the same up to the first byte that is wrong.
-            let place = if utf16 { 0 } else { outcome.err().map_or(0, |error| error.valid_up_to()) };
-            let text = if utf16 { String::new() } else { String::from_utf8_lossy(bytes).into_owned() };
-            let wrong = text[place..].chars().next().map_or(0, char::len_utf8);
-            let source = sources.add(name, text);
-            let span = Span::new(source, place..place + wrong);
-            (source, Err(Box::new(not_utf8(span, name, bytes, utf16))))
+    let utf16 = matches!(bytes, [b'<', 0, ..] | [0, b'<', ..]);
+    let (source, outcome) = sophy_diagnostics::decode(sources, name, bytes, MAX_BYTES, utf16);
+    let outcome = outcome.map_err(|error| match error {
+        NotText::TooLarge => Box::new(too_large(source, bytes.len())),
+        NotText::NotUtf8 { encoding: "UTF-16", place } => Box::new(not_utf8(place, name, "UTF-16")),
+        NotText::NotUtf8 { encoding, place } => {
+            let declared = declared_encoding(bytes).filter(|name| !name.eq_ignore_ascii_case("UTF-8"));
+            Box::new(not_utf8(place, name, declared.unwrap_or(encoding)))
         }
-    }
+    });
+    (source, outcome)
 }
 
 fn too_large(source: SourceId, length: usize) -> Diagnostic {
@@ -36,23 +30,11 @@ fn too_large(source: SourceId, length: usize) -> Diagnostic {
         .help("signals belong in CSV files, large systems into several models")
 }
 
-fn not_utf8(span: Span, name: &str, bytes: &[u8], utf16: bool) -> Diagnostic {
-    let encoding = match (utf16, declared_encoding(bytes)) {
-        (true, _) => "UTF-16",
-        (false, Some(declared)) if !declared.eq_ignore_ascii_case("UTF-8") => declared,
-        // Bytes 0x80 to 0x9F are control characters in Latin-1, letters and quotes in Windows-1252.
-        (false, _) if bytes.iter().any(|byte| (0x80..0xA0).contains(byte)) => "WINDOWS-1252",
-        (false, _) => "ISO-8859-1",
-    };
+fn not_utf8(span: Span, name: &str, encoding: &str) -> Diagnostic {
     Diagnostic::error(NOT_UTF8, span, format!("the file is not UTF-8; it looks like {encoding}"))
         .label_main("the first byte that is not UTF-8")
         .help(format!("convert it: iconv -f {encoding} -t UTF-8 '{name}' > utf8.xml"))
         .help("then let its first line say encoding=\"UTF-8\", or nothing about the encoding")
-}
-
-/// A byte order mark, or `<` with a zero byte beside it.
-fn looks_like_utf16(bytes: &[u8]) -> bool {
-    matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [b'<', 0, ..] | [0, b'<', ..])
 }
 
 /// The encoding that the XML declaration names.

@@ -1,5 +1,5 @@
 use crate::hsml::codes::{NOT_TEXT, NOT_UTF8, TOO_LARGE};
-use sophy_diagnostics::{Diagnostic, SourceId, Sources, Span};
+use sophy_diagnostics::{Diagnostic, NotText, SourceId, Sources, Span};
 
 /// Largest file, in bytes.
 const MAX_BYTES: usize = 64 << 20;
@@ -14,37 +14,15 @@ pub(super) fn decode(
     name: &str,
     bytes: &[u8],
 ) -> (SourceId, Result<(), Box<Diagnostic>>) {
-    if bytes.len() > MAX_BYTES {
-        let source = sources.add(name, "");
-        let message =
-            format!("the file has {} bytes, more than the {MAX_BYTES} a model may have", bytes.len());
-        let diagnostic = Diagnostic::error(TOO_LARGE, Span::new(source, 0..0), message)
-            .help("signals belong in CSV files, copies of a component into an array");
-        return (source, Err(Box::new(diagnostic)));
-    }
-    if matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]) {
-        let source = sources.add(name, "");
-        return (source, Err(Box::new(not_utf8(Span::new(source, 0..0), name, "UTF-16"))));
-    }
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            // The replaced text is the same up to the first byte that is wrong.
-            let place = error.valid_up_to();
-            let text = String::from_utf8_lossy(bytes).into_owned();
-            let wrong = text.get(place..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-            let source = sources.add(name, text);
-            // Bytes 0x80 to 0x9F are control characters in Latin-1, letters and quotes in Windows-1252.
-            let windows = bytes.iter().any(|byte| (0x80..0xA0).contains(byte));
-            let encoding = if windows { "WINDOWS-1252" } else { "ISO-8859-1" };
-            return (
-                source,
-                Err(Box::new(not_utf8(Span::new(source, place..place + wrong), name, encoding))),
-            );
+    let (source, outcome) = sophy_diagnostics::decode(sources, name, bytes, MAX_BYTES, false);
+    let text = match outcome {
+        Ok(()) => sources.text(source),
+        Err(NotText::TooLarge) => return (source, Err(Box::new(too_large(source, bytes.len())))),
+        Err(NotText::NotUtf8 { encoding, place }) => {
+            return (source, Err(Box::new(not_utf8(place, name, encoding))));
         }
     };
-    let source = sources.add(name, text);
     match text.find('\0') {
         None => (source, Ok(())),
         Some(zero) => {
@@ -57,6 +35,12 @@ pub(super) fn decode(
             (source, Err(Box::new(diagnostic)))
         }
     }
+}
+
+fn too_large(source: SourceId, length: usize) -> Diagnostic {
+    let message = format!("the file has {length} bytes, more than the {MAX_BYTES} a model may have");
+    Diagnostic::error(TOO_LARGE, Span::new(source, 0..0), message)
+        .help("signals belong in CSV files, copies of a component into an array")
 }
 
 fn not_utf8(span: Span, name: &str, encoding: &str) -> Diagnostic {
