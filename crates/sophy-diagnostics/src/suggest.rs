@@ -24,38 +24,34 @@ fn closeness(name: &str, candidate: &str) -> Option<usize> {
     if lower == lower_candidate {
         return Some(0);
     }
-    let letters = name.chars().count();
-    let limit = letters.max(candidate.chars().count()).div_ceil(3);
-    let distance = edit_distance(&lower, &lower_candidate);
-    if letters > 1 && distance <= limit && distance < letters {
-        return Some(1 + distance);
+    let (letters, others) = (name.chars().count(), candidate.chars().count());
+    let limit = letters.max(others).div_ceil(3);
+    if letters > 1 && letters.abs_diff(others) <= limit {
+        let distance = edit_distance(&lower, &lower_candidate);
+        if distance <= limit && distance < letters {
+            return Some(1 + distance);
+        }
     }
-    let words = words(candidate);
-    if words.iter().any(|word| word.to_lowercase() == lower) {
+    if words(candidate).any(|word| word.to_lowercase() == lower) {
         return Some(10);
     }
     if lower_candidate.starts_with(&lower) {
         return Some(20);
     }
-    words.iter().any(|word| word.to_lowercase().starts_with(&lower)).then_some(30)
+    words(candidate).any(|word| word.to_lowercase().starts_with(&lower)).then_some(30)
 }
 
 /// `ChargeMode` → `Charge`, `Mode`; `max_speed` → `max`, `speed`.
-fn words(name: &str) -> Vec<String> {
-    let mut words = vec![String::new()];
+fn words(name: &str) -> impl Iterator<Item = &str> {
     let mut after_lower = false;
-    for c in name.chars() {
-        if (c.is_uppercase() && after_lower) || !c.is_alphanumeric() {
-            words.push(String::new());
-        }
+    let starts = name.char_indices().filter(move |&(_, c)| {
+        let starts = c.is_uppercase() && after_lower;
         after_lower = c.is_lowercase() || c.is_numeric();
-        if c.is_alphanumeric()
-            && let Some(word) = words.last_mut()
-        {
-            word.push(c);
-        }
-    }
-    words
+        starts
+    });
+    let ends = starts.map(|(at, _)| at).chain([name.len()]);
+    let parts = ends.scan(0, |start, end| Some(name.get(std::mem::replace(start, end)..end).unwrap_or("")));
+    parts.flat_map(|part| part.split(|c: char| !c.is_alphanumeric()))
 }
 
 /// Damerau–Levenshtein distance (optimal string alignment), in characters.
@@ -92,5 +88,7 @@ mod tests {
         assert_eq!(meant("Charge", &["Nominal", "Payload", "Safe"]), None);
         assert_eq!(meant("FootHeight", &["G", "L", "TAU"]), None);
         assert_eq!(meant("x2", &["x1", "y"]), Some("x1"));
+        assert_eq!(meant("speed", &["altitude", "ground_Speed"]), Some("ground_Speed"));
+        assert_eq!(words("oneTwo_three2Four").collect::<Vec<_>>(), ["one", "Two", "three2", "Four"]);
     }
 }
