@@ -1,6 +1,6 @@
 use crate::checks::{hs0107_declared_twice, hs0138_unknown_component, hs0142_no_component};
 use crate::component::{Given, Shared};
-use crate::composite::Library;
+use crate::composite::{Library, findings_in_use};
 use crate::declarations::{ComponentDeclaration, ComponentKind, Declarations, Dialect, MemberItem};
 use crate::dependency_order::dependency_order;
 use crate::findings::Findings;
@@ -63,20 +63,22 @@ pub fn analyse(
         shared.findings.report(hs0138_unknown_component::circle(&members));
         circular.extend(cycle);
     }
-    let mut entries = HashMap::new();
+    let mut defaults = Vec::new();
     for index in sorted.order {
         if !needs[index].iter().any(|needed| circular.contains(needed)) {
-            entries.insert(index, library.entry(&mut shared, index, &Given::new()));
+            defaults.push((index, library.entry(&mut shared, index, &Given::new())));
         } else {
             circular.insert(index);
         }
     }
 
     let root = find_root(&library, root, main, sources, &mut shared.findings);
-    let Shared { findings, texts, files, .. } = shared;
+    let Shared { mut findings, texts, files, .. } = shared;
+    findings.report_all(findings_in_use(&defaults, root));
     let diagnostics = once(findings.diagnostics);
     let well_formed = !diagnostics.has_errors();
-    let class = root.and_then(|root| entries.get(&root)).and_then(|entry| entry.class);
+    let of_root = defaults.iter().find(|(component, _)| Some(*component) == root);
+    let class = of_root.and_then(|(_, entry)| entry.class);
     let model = class.filter(|_| well_formed).map(|class| {
         let (classes, root) = reachable(library.classes, class);
         Model { classes, root, texts, tables: files.tables }

@@ -20,8 +20,16 @@ pub(crate) struct Shared<'a> {
     pub(crate) sources: &'a Sources,
 }
 
-/// Values of parameters that a class is specialised to, element by element.
-pub(crate) type Given = BTreeMap<String, Vec<f64>>;
+/// Parameters that a class is specialised to.
+pub(crate) type Given = BTreeMap<String, GivenValue>;
+
+/// What a class is made for in the place of a parameter's own value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct GivenValue {
+    pub(crate) shape: Shape,
+    /// Element by element; `None` if each copy of the class has its own.
+    pub(crate) values: Option<Vec<f64>>,
+}
 
 /// A class while it is made.
 pub(crate) struct Builder<'b, 'a> {

@@ -13,14 +13,14 @@ mod types;
 mod variables;
 
 pub(crate) use automaton::{BuiltLocation, BuiltTransition};
-pub(crate) use builder::{Builder, Given, Shared};
+pub(crate) use builder::{Builder, Given, GivenValue, Shared};
 pub(crate) use checks::Stray;
 pub(crate) use equations::Definition;
 pub(crate) use types::{PortType, TYPES};
 pub(crate) use variables::{Interface, Port};
 
 use crate::declarations::{ComponentDeclaration, ComponentKind};
-use crate::lower::Place;
+use crate::lower::{Expected, Place};
 use sophy_ir::{Body, Class, Leaf, VariableKind};
 use std::collections::BTreeSet;
 
@@ -29,6 +29,8 @@ pub(crate) struct Built {
     /// `None` if it has mistakes.
     pub(crate) class: Option<Class>,
     pub(crate) interface: Interface,
+    /// What members can give, in written order; `None` where that is not known.
+    pub(crate) parameters: Vec<(String, Option<Expected>)>,
     /// Parameters whose values decided something of the structure.
     pub(crate) structural: BTreeSet<String>,
 }
@@ -92,6 +94,7 @@ impl Builder<'_, '_> {
     pub(crate) fn finish(mut self, body: Option<Body>, interface: Interface, errors: usize) -> Built {
         let declaration = self.declaration;
         let structural = self.structural_closure();
+        let parameters = self.parameters_of_members();
         for variable in &mut self.variables {
             let base = variable.name.split('[').next().unwrap_or(&variable.name);
             variable.structural =
@@ -110,6 +113,6 @@ impl Builder<'_, '_> {
             body,
             span: Some(declaration.name.span),
         });
-        Built { class, interface, structural }
+        Built { class, interface, parameters, structural }
     }
 }

@@ -1,12 +1,14 @@
-use super::builder::Builder;
+use super::builder::{Builder, GivenValue};
 use crate::checks::{
     hs0107_declared_twice, hs0108_defined_twice, hs0123_knob_without_value, hs0301_circular_constants,
 };
 use crate::declarations::{Dialect, ExpressionText, KnobDeclaration, ParameterDeclaration, Spanned};
 use crate::dependency_order::dependency_order;
-use crate::lower::{Place, Symbol, SymbolKind, SymbolValue, VariableSymbol, Varies, names_in};
+use crate::lower::{
+    Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, VariableSymbol, Varies, names_in,
+};
 use sophy_diagnostics::Span;
-use sophy_ir::{Quantity, Variable, VariableId, VariableKind};
+use sophy_ir::{NodeId, Quantity, Variable, VariableId, VariableKind};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -94,6 +96,20 @@ impl<'a> Builder<'_, 'a> {
         (self.declaration.dialect == Dialect::Xml).then_some((function.kind, function.span))
     }
 
+    /// What members can give the parameters of this component; `None` where that is not known.
+    pub(crate) fn parameters_of_members(&self) -> Vec<(String, Option<Expected>)> {
+        let declaration = self.declaration;
+        let knobs = declaration.knobs.iter().map(|knob| &knob.name);
+        let names = knobs.chain(declaration.parameters.iter().map(|parameter| &parameter.name));
+        let mut seen: HashSet<&str> = HashSet::new();
+        let first = names.filter(|name| !name.value.is_empty() && seen.insert(&name.value));
+        let expected = |name: &Spanned<String>| {
+            let (_, expected) = self.expected(&name.value, "")?;
+            Some(Expected { what: format!("parameter `{}`", name.value), ..expected })
+        };
+        first.map(|name| (name.value.clone(), expected(name))).collect()
+    }
+
     fn written_parameters(&mut self) -> Vec<Parameter<'a>> {
         let declaration = self.declaration;
         let mut parameters: Vec<Parameter<'a>> = declaration
@@ -148,31 +164,31 @@ impl<'a> Builder<'_, 'a> {
         let measured = self.measured_in(unit, &value);
         let quantity = if value.quantity == Quantity::Integer { Quantity::Real } else { value.quantity };
         let value = self.as_stored(value);
-        let elements: Vec<_> = value.elements.as_slice().to_vec();
         let range = self.range_of(parameter.knob.and_then(|knob| knob.range.as_ref()));
         let first = VariableId(self.variables.len() as u32);
-        let given = self.given.get(&name.value).filter(|given| given.len() == elements.len()).cloned();
+        let (shape, nodes): (Shape, Vec<Option<NodeId>>) = match self.given.get(&name.value) {
+            None => (value.shape, value.elements.as_slice().iter().copied().map(Some).collect()),
+            Some(GivenValue { shape, values: Some(values) }) => {
+                (*shape, values.iter().map(|&value| Some(self.graph.number(value))).collect())
+            }
+            Some(GivenValue { shape, values: None }) => (*shape, vec![None; shape.len()]),
+        };
         let documentation = match parameter.knob {
             Some(knob) if !knob.documentation.is_empty() => &knob.documentation,
             _ => &written.documentation,
         };
-        let mut known = Vec::with_capacity(elements.len());
-        for (k, &node) in elements.iter().enumerate() {
-            let computed = match &given {
-                Some(given) => Some(given[k]),
-                None => self.known_value(node),
-            };
-            let node = match &given {
-                Some(given) => self.graph.number(given[k]),
-                None => node,
-            };
+        let mut known = Vec::with_capacity(nodes.len());
+        for (k, &node) in nodes.iter().enumerate() {
+            let computed = node.and_then(|node| self.known_value(node));
+            // Each copy says what it is.
+            let node = node.unwrap_or_else(|| self.graph.number(0.0));
             let id = VariableId(self.variables.len() as u32);
             if let Some(computed) = computed {
                 self.values.insert(id, computed);
                 known.push(computed);
             }
             self.variables.push(Variable {
-                name: format!("{}{}", name.value, value.shape.suffix(k)),
+                name: format!("{}{}", name.value, shape.suffix(k)),
                 kind: VariableKind::Parameter { value: node, knob: parameter.knob.is_some() },
                 quantity,
                 range: range.bounds,
@@ -188,10 +204,10 @@ impl<'a> Builder<'_, 'a> {
         {
             self.check_in_range(&name.value, range, &known, written.value.span);
         }
-        let all_known = known.len() == elements.len();
+        let all_known = known.len() == nodes.len();
         let symbol = VariableSymbol {
             first,
-            shape: value.shape,
+            shape,
             quantity,
             measured,
             varies: Varies::Parameters,

@@ -13,7 +13,7 @@ pub(crate) fn build_composite<'a>(
     library: &mut Library<'a>,
     shared: &mut Shared<'a>,
     given: &Given,
-) -> Built {
+) -> (Built, Vec<Rc<Entry>>) {
     let errors = shared.findings.error_count();
     let mut builder = Builder::new(declaration, shared, given);
     builder.check_sections();
@@ -28,12 +28,13 @@ pub(crate) fn build_composite<'a>(
     let members = expand_members(&mut builder, library);
     let composite = connect(&mut builder, &members, &interface);
     // A connection or member with a mistake feeds nothing: what it was to feed would be complained about, too.
-    if builder.shared.findings.error_count() == errors {
+    if builder.shared.findings.error_count() == errors && !members.broken {
         check_connected(&mut builder, &members, &interface, &composite);
     }
     builder.check_uses();
     let composite = Composite { members: members.list, ..composite };
-    builder.finish(Some(Body::Composite(composite)), interface, errors)
+    let body = (!members.broken).then_some(Body::Composite(composite));
+    (builder.finish(body, interface, errors), members.used.into_values().collect())
 }
 
 /// Complains about inputs of members and outputs of the composite that nothing feeds.

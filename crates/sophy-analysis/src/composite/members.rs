@@ -3,13 +3,12 @@ use crate::checks::{
     hs0107_declared_twice, hs0108_defined_twice, hs0126_out_of_range, hs0138_unknown_component,
     hs0139_unknown_parameter, hs0140_array_of_components,
 };
-use crate::component::{Builder, Given};
+use crate::component::{Builder, Given, GivenValue};
 use crate::declarations::{ComponentKind, ExpressionText, MemberDeclaration, MemberItem, Spanned};
-use crate::lower::{Expected, Place, Symbol, SymbolKind, SymbolValue};
-use crate::units::Measured;
+use crate::lower::{Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, Typed};
 use sophy_diagnostics::Span;
-use sophy_ir::{Member, NodeId, Quantity, VariableId, VariableKind};
-use std::collections::{BTreeSet, HashMap};
+use sophy_ir::{Class, Member, NodeId, VariableId};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
 /// Members of a composite.
@@ -20,6 +19,10 @@ pub(crate) struct Members {
     pub(crate) entries: Vec<Rc<Entry>>,
     /// Per member: the kind of its component.
     pub(crate) kinds: Vec<ComponentKind>,
+    /// All forms of components that they are, those with mistakes, too.
+    pub(crate) used: BTreeMap<usize, Rc<Entry>>,
+    /// Whether one has mistakes.
+    pub(crate) broken: bool,
     by_name: HashMap<String, Named>,
 }
 
@@ -86,8 +89,11 @@ fn expand<'a>(
     for item in items {
         match item {
             MemberItem::Member(member) => {
-                if add(builder, library, member, members).is_none() && !member.name.value.is_empty() {
-                    members.by_name.entry(member.name.value.clone()).or_insert(Named::Broken);
+                if add(builder, library, member, members).is_none() {
+                    members.broken = true;
+                    if !member.name.value.is_empty() {
+                        members.by_name.entry(member.name.value.clone()).or_insert(Named::Broken);
+                    }
                 }
             }
             MemberItem::For(turns) => {
@@ -124,17 +130,12 @@ fn add<'a>(
         return None;
     }
     let default = library.entry(builder.shared, component, &Given::new());
-    let (parameters, given) = parameters(builder, library, written, &default);
-    default.class?;
+    let values = values(builder, written, &default);
+    let given = values.iter().map(|(name, _, value)| (name.value.clone(), given(builder, value))).collect();
     let entry = library.entry(builder.shared, component, &given);
+    members.used.entry(entry.number).or_insert_with(|| Rc::clone(&entry));
     let class = entry.class?;
-    // Numbers of variables may differ between forms of a class; names do not.
-    let parameters = parameters
-        .into_iter()
-        .filter_map(|(parameter, node)| {
-            Some((library.classes[class.0 as usize].variable_named(&parameter)?, node))
-        })
-        .collect();
+    let parameters = parameters(builder, &entry, &library.classes[class.0 as usize], written, values);
     enter(builder, name, &element, members)?;
     members.list.push(Member {
         name: name.value.clone(),
@@ -217,45 +218,78 @@ fn whole_numbers<'a>(
     Some(numbers)
 }
 
-/// Values that a member gives to parameters, element by element and by name, and those that decide its structure.
-fn parameters<'a>(
+/// A parameter that a member gives a value.
+type Value<'a> = (&'a Spanned<String>, &'a ExpressionText, Typed);
+
+/// Values that a member gives to parameters; `default` says what they must be.
+fn values<'a>(
     builder: &mut Builder<'_, 'a>,
-    library: &Library<'a>,
     written: &'a MemberDeclaration,
-    entry: &Rc<Entry>,
-) -> (Vec<(String, NodeId)>, Given) {
-    let mut parameters = Vec::new();
-    let mut given = Given::new();
+    default: &Entry,
+) -> Vec<Value<'a>> {
+    let mut values = Vec::new();
     let mut first: HashMap<&str, Span> = HashMap::new();
     for (name, text) in &written.parameters {
-        let Some(class) = entry.class else {
-            builder.at(Place::PARAMETER).value(text);
-            continue;
-        };
-        let class = &library.classes[class.0 as usize];
         if let Some(&first) = first.get(name.value.as_str()) {
             let what = format!("the value of `{}`", name.value);
             builder.report(hs0108_defined_twice::diagnostic(&what, first, name.span));
         }
         first.insert(&name.value, name.span);
-        let Some((ids, expected)) = parameter_of(class, name) else {
-            builder.report(hs0139_unknown_parameter::diagnostic(name, &written.component, class));
+        let Some((_, parameter)) = default.parameters.iter().find(|(known, _)| *known == name.value) else {
+            let names: Vec<&str> = default.parameters.iter().map(|(name, _)| name.as_str()).collect();
+            builder.report(hs0139_unknown_parameter::diagnostic(name, &written.component, &names));
             builder.at(Place::PARAMETER).value(text);
             continue;
         };
-        let Some(value) = builder.at(Place::PARAMETER).value_for(text, &expected) else { continue };
-        let nodes = builder.at(Place::PARAMETER).stored(&value);
-        if entry.structural.contains(&name.value) {
-            match builder.at(Place::PARAMETER).known(&value) {
-                Some(values) => {
-                    given.insert(name.value.clone(), values);
-                }
-                None => {
-                    builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span));
-                }
+        let mut lowering = builder.at(Place::PARAMETER);
+        let Some(value) = lowering.value(text) else { continue };
+        let value = match parameter {
+            Some(parameter) => {
+                let shape = of_its_own(parameter.shape, value.shape);
+                let expected = Expected { shape, ..parameter.clone() };
+                lowering.fit(value, text.span, &expected)
             }
+            // Its own value has a mistake, so that it could be anything.
+            None => Some(value),
+        };
+        values.extend(value.map(|value| (name, text, value)));
+    }
+    values
+}
+
+/// A value brings its own extents, but not their number.
+fn of_its_own(declared: Shape, given: Shape) -> Shape {
+    if declared.extents().len() == given.extents().len() { given } else { declared }
+}
+
+/// What a form of the component can be made for.
+fn given(builder: &mut Builder<'_, '_>, value: &Typed) -> GivenValue {
+    let values = builder.at(Place::PARAMETER).evaluated(value, &mut Vec::new());
+    GivenValue { shape: value.shape, values }
+}
+
+/// Values of parameters, element by element.
+fn parameters<'a>(
+    builder: &mut Builder<'_, 'a>,
+    entry: &Entry,
+    class: &Class,
+    written: &'a MemberDeclaration,
+    values: Vec<Value<'a>>,
+) -> Vec<(VariableId, NodeId)> {
+    let mut parameters = Vec::new();
+    for (name, text, value) in values {
+        // What decides the structure of a member decides that of the composite, too.
+        let is_fixed = entry.given.get(&name.value).is_some_and(|given| given.values.is_some());
+        if is_fixed {
+            builder.at(Place::PARAMETER).known(&value);
+        } else if entry.structural.contains(&name.value) {
+            builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span));
         }
-        for (&id, &node) in ids.iter().zip(&nodes) {
+        let nodes = builder.at(Place::PARAMETER).stored(&value);
+        for (k, node) in nodes.into_iter().enumerate() {
+            let element = format!("{}{}", name.value, value.shape.suffix(k));
+            let Some(id) = class.variable_named(&element) else { continue };
+            parameters.push((id, node));
             let variable = class.variable(id);
             let bounds = variable
                 .range
@@ -269,48 +303,6 @@ fn parameters<'a>(
                 builder.report(found);
             }
         }
-        for (id, node) in ids.into_iter().zip(nodes) {
-            parameters.push((class.variable(id).name.clone(), node));
-        }
     }
-    (parameters, given)
-}
-
-/// The elements of a parameter of a class, and what its value must be.
-fn parameter_of(class: &sophy_ir::Class, name: &Spanned<String>) -> Option<(Vec<VariableId>, Expected)> {
-    let prefix = format!("{}[", name.value);
-    let is_parameter = |kind| matches!(kind, VariableKind::Parameter { .. });
-    let ids: Vec<VariableId> = class
-        .variables_of(is_parameter)
-        .filter(|&id| {
-            let own = &class.variable(id).name;
-            *own == name.value || own.starts_with(&prefix)
-        })
-        .collect();
-    let &first = ids.first()?;
-    let shape = shape_of(&class.variable(*ids.last()?).name, ids.len());
-    let variable = class.variable(first);
-    let measured = match variable.unit.as_deref().map(crate::units::parse) {
-        Some(Ok(parsed)) => Measured::Known(parsed.unit),
-        _ => Measured::Unchecked,
-    };
-    let expected = Expected {
-        shape,
-        quantity: if variable.quantity == Quantity::Integer { Quantity::Real } else { variable.quantity },
-        measured,
-        choices: variable.choices.clone(),
-        what: format!("parameter `{}`", name.value),
-        span: variable.span,
-    };
-    Some((ids, expected))
-}
-
-/// The shape of a variable whose last element has this name.
-fn shape_of(last: &str, count: usize) -> crate::lower::Shape {
-    use crate::lower::Shape;
-    let indices = last.split_once('[').map(|(_, rest)| rest.trim_end_matches(']'));
-    match indices.map(|indices| indices.split(',').filter_map(|i| i.parse().ok()).collect::<Vec<usize>>()) {
-        Some(extents) => Shape::of(&extents).unwrap_or(Shape::Vector(count)),
-        None => Shape::Scalar,
-    }
+    parameters
 }

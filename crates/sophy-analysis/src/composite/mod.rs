@@ -6,4 +6,4 @@ mod library;
 mod matrix;
 mod members;
 
-pub(crate) use library::Library;
+pub(crate) use library::{Library, findings_in_use};

@@ -123,7 +123,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// The same, without consequences; `parameters` gets the names of those that were used.
-    pub(super) fn evaluated(&self, value: &Typed, parameters: &mut Vec<String>) -> Option<Vec<f64>> {
+    pub(crate) fn evaluated(&self, value: &Typed, parameters: &mut Vec<String>) -> Option<Vec<f64>> {
         if value.varies > Varies::Parameters {
             return None;
         }
