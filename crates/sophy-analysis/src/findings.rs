@@ -1,4 +1,5 @@
 use sophy_diagnostics::{Diagnostic, Diagnostics, Severity, Span};
+use std::collections::HashSet;
 
 /// An expression uses a name that nothing declares.
 pub(crate) struct UnknownName {
@@ -19,6 +20,8 @@ pub(crate) struct Findings {
     pub(crate) logarithms: Vec<Span>,
     /// Whether it was said that the model grows beyond bounds.
     pub(crate) too_large: bool,
+    /// Binders that were said to hide something: the body of a function is lowered with every call.
+    pub(crate) binders: HashSet<Span>,
     errors: usize,
 }
 

@@ -7,6 +7,10 @@ pub(crate) const CODE: Code = Code("HS0108");
 
 /// `what` was given at `first`, and again at `again`.
 pub(crate) fn diagnostic(what: &str, first: Span, again: Span) -> Diagnostic {
+    if first == again {
+        return Diagnostic::error(CODE, again, format!("{what} is given again by each turn of the loop"))
+            .help("write it outside of the loop, or with an index");
+    }
     Diagnostic::error(CODE, again, format!("{what} is given twice"))
         .label(first, "first here")
         .help("delete one of the two")

@@ -36,9 +36,10 @@ mod tests {
              location A
                der x = 1
                transition t when x > 1 goto A
+                 reset x = 0
              location A
                der x = 2",
-            "error[HS0112] line 5 `A`: two locations are called `A`
+            "error[HS0112] line 6 `A`: two locations are called `A`
                line 2 `A`: the first
                help: rename one of them, and the destinations that mean it",
         );

@@ -28,7 +28,8 @@ mod tests {
              location A
                der x = if k = 2 then 1 else 2
                transition t when x = k goto A
-               transition u when (x > 1) = (x > 2) goto A",
+               transition u when (x > 1) = (x > 2) goto A
+                 reset x = 0",
             "error[HS0204] line 5 `=`: `x = k` asks for equality of what varies continuously
                help: for the instant of a crossing compare with `<` or `>`
                help: for values that change only at transitions write `abs(x - k) < 0.5`",

@@ -27,6 +27,13 @@ pub(crate) fn diagnostic(
     .help(help)
 }
 
+/// The shape of something is asked for before its declaration.
+pub(crate) fn too_early(span: Span, name: &str, declared: Span) -> Diagnostic {
+    Diagnostic::error(CODE, span, format!("the shape of `{name}` is not known yet"))
+        .label(declared, "declared here")
+        .help("declare it above, or write its extents by a parameter that both use")
+}
+
 fn available(place: Place, dialect: Dialect) -> &'static str {
     match place.most {
         Varies::Never => "use numbers and constants only",

@@ -1,15 +1,15 @@
 //! Constants define one another, perhaps by way of functions: none of them has a value.
 
-use crate::declarations::{ExpressionText, ParameterDeclaration, Spanned};
+use crate::declarations::{Dialect, ExpressionText, ParameterDeclaration, Spanned};
 use sophy_diagnostics::{Code, Diagnostic};
 
 pub(crate) const CODE: Code = Code("HS0301");
 
 /// Each member needs the next, the last the first.
-pub(crate) fn parameters(members: &[&ParameterDeclaration]) -> Diagnostic {
+pub(crate) fn parameters(members: &[&ParameterDeclaration], dialect: Dialect) -> Diagnostic {
     let members: Vec<(&Spanned<String>, &ExpressionText)> =
         members.iter().map(|member| (&member.name, &member.value)).collect();
-    diagnostic(&members, "constant")
+    diagnostic(&members, if dialect == Dialect::Xml { "constant" } else { "parameter" })
 }
 
 /// Members are constants, or functions that constants call.

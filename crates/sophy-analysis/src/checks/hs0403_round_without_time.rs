@@ -4,8 +4,8 @@
 use crate::component::{BuiltLocation, BuiltTransition};
 use crate::declarations::TriggerDeclaration;
 use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
-use sophy_ir::{Graph, Leaf, Node, NodeId};
-use std::collections::BTreeMap;
+use sophy_ir::{Graph, Leaf, Node, NodeId, VariableId};
+use std::collections::{BTreeMap, BTreeSet};
 
 pub(crate) const CODE: Code = Code("HS0403");
 
@@ -14,8 +14,11 @@ pub(crate) fn find(locations: &[BuiltLocation<'_>], graph: &Graph, diagnostics: 
     let mut by_guard: BTreeMap<NodeId, Vec<(usize, &BuiltTransition<'_>)>> = BTreeMap::new();
     for (position, location) in locations.iter().enumerate() {
         for transition in &location.transitions {
-            let Some(guard) = transition.guard.filter(|_| is_level(transition)) else { continue };
-            if !matches!(graph.node(guard), Node::Boolean(_)) && !changes(graph, guard, transition) {
+            let Some(guard) = transition.guard.filter(|_| is_level(transition) && transition.sound) else {
+                continue;
+            };
+            let ends = [Some(location), transition.destination.and_then(|entered| locations.get(entered))];
+            if !matches!(graph.node(guard), Node::Boolean(_)) && !changes(graph, guard, transition, ends) {
                 by_guard.entry(guard).or_default().push((position, transition));
             }
         }
@@ -31,11 +34,33 @@ fn is_level(transition: &BuiltTransition<'_>) -> bool {
     matches!(transition.declaration.trigger, TriggerDeclaration::When(_) | TriggerDeclaration::WhenOrOn(..))
 }
 
-/// Whether a transition assigns something that its guard reads.
-fn changes(graph: &Graph, guard: NodeId, transition: &BuiltTransition<'_>) -> bool {
-    let read = graph.dependencies([guard]);
-    transition.actions.assignments.iter().any(|a| read.contains(&Leaf::Variable(a.variable)))
-        || read.iter().any(|leaf| matches!(leaf, Leaf::Special(_)))
+/// Whether a transition may change something that its guard reads, also by way of equations: `ends` are the locations
+/// that it leaves and enters.
+fn changes(
+    graph: &Graph,
+    guard: NodeId,
+    transition: &BuiltTransition<'_>,
+    ends: [Option<&BuiltLocation<'_>>; 2],
+) -> bool {
+    let assigned: BTreeSet<VariableId> =
+        transition.actions.assignments.iter().map(|assignment| assignment.variable).collect();
+    let mut read: BTreeSet<VariableId> = BTreeSet::new();
+    let mut pending: Vec<Leaf> = graph.dependencies([guard]).into_iter().collect();
+    while let Some(leaf) = pending.pop() {
+        match leaf {
+            Leaf::Special(_) => return true,
+            Leaf::Variable(id) if assigned.contains(&id) => return true,
+            Leaf::Variable(id) if read.insert(id) => {
+                let [before, after] = ends.map(|end| end.and_then(|l| l.defined.values.get(&id)?.right));
+                if before != after {
+                    return true;
+                }
+                pending.extend(before.into_iter().flat_map(|right| graph.dependencies([right])));
+            }
+            _ => {}
+        }
+    }
+    false
 }
 
 /// The transitions of a circle. Of a location only the first way counts: it is the one that is taken.
@@ -47,11 +72,10 @@ fn circle<'t, 'a>(ways: &[(usize, &'t BuiltTransition<'a>)]) -> Option<Vec<&'t B
         while let Some(way) = next(at) {
             path.push(way);
             at = way.destination?;
-            // A transition to its own location may be there for what it emits or counts.
-            if at == start && path.len() > 1 {
+            if at == start {
                 return Some(path);
             }
-            if at == start || path.len() > ways.len() {
+            if path.len() > ways.len() {
                 break;
             }
         }
@@ -62,7 +86,10 @@ fn circle<'t, 'a>(ways: &[(usize, &'t BuiltTransition<'a>)]) -> Option<Vec<&'t B
 fn diagnostic(circle: &[&BuiltTransition<'_>], locations: &[BuiltLocation<'_>]) -> Diagnostic {
     let names: Vec<String> = circle.iter().map(|way| format!("`{}`", way.declaration.name.value)).collect();
     let first = circle[0].declaration;
-    let message = format!("{} lead round in a circle without time passing", names.join(", "));
+    let message = match names.as_slice() {
+        [only] => format!("{only} leads to its own location without time passing, again and again"),
+        _ => format!("{} lead round in a circle without time passing", names.join(", ")),
+    };
     let mut error = Diagnostic::error(CODE, first.name.span, message);
     for way in &circle[1..] {
         error = error.label(way.declaration.name.span, "and then this one");
@@ -108,6 +135,24 @@ mod tests {
                der x = -1
                transition back when x < 1 goto A",
             "",
+        );
+    }
+
+    #[test]
+    fn to_its_own_location() {
+        check(
+            "state x
+             state n
+             location A
+               der x = 1
+               der n = 0
+               transition count when x > 1 goto A
+                 reset n = n + 1
+               transition back when x > 2 goto A
+                 reset x = 0",
+            "error[HS0403] line 6 `count`: `count` leads to its own location without time passing, again and again
+               note: back in `A`, the guard is as true as before: nothing that it reads has changed
+               help: let a transition assign what the guard reads, or wait for something else on the way back",
         );
     }
 }

@@ -53,6 +53,7 @@ pub(crate) mod hs0144_flag_without_event;
 pub(crate) mod hs0145_constrained;
 pub(crate) mod hs0146_assigned_by_two;
 pub(crate) mod hs0147_read_before_assigned;
+pub(crate) mod hs0148_of_another_location;
 pub(crate) mod hs0201_unknown_function;
 pub(crate) mod hs0202_wrong_number_of_arguments;
 pub(crate) mod hs0203_number_as_condition;
@@ -113,7 +114,7 @@ pub const CODES: &[(Code, &str)] = &[
     (hs0114_unknown_destination::CODE, "a transition leads to a location that does not exist"),
     (hs0115_unknown_initial_location::CODE, "the first location does not exist"),
     (hs0116_unreachable_location::CODE, "no transition leads to a location"),
-    (hs0117_hidden_name::CODE, "a declared name hides a predefined one"),
+    (hs0117_hidden_name::CODE, "a declared name hides another one"),
     (hs0118_unused::CODE, "a constant or input is not used"),
     (hs0119_no_location::CODE, "a system has no location"),
     (hs0120_unknown_type::CODE, "a type that does not exist"),
@@ -144,6 +145,7 @@ pub const CODES: &[(Code, &str)] = &[
     (hs0145_constrained::CODE, "more constraints than unknowns"),
     (hs0146_assigned_by_two::CODE, "a variable may be assigned twice at one instant"),
     (hs0147_read_before_assigned::CODE, "a local is read before it is assigned"),
+    (hs0148_of_another_location::CODE, "a name that another location declares for itself"),
     (hs0201_unknown_function::CODE, "something is called that is not a function"),
     (hs0202_wrong_number_of_arguments::CODE, "a function is called with the wrong number of arguments"),
     (hs0203_number_as_condition::CODE, "a number stands where a condition is needed"),

@@ -49,6 +49,8 @@ pub(crate) struct BuiltTransition<'a> {
     pub(crate) destination: Option<usize>,
     pub(crate) actions: Actions,
     pub(crate) priority: i32,
+    /// Whether all of it is free of mistakes.
+    pub(crate) sound: bool,
 }
 
 impl<'a> Builder<'_, 'a> {
@@ -62,7 +64,8 @@ impl<'a> Builder<'_, 'a> {
         let written: Vec<Option<&'a LocationDeclaration>> =
             if has_locations { declaration.locations.iter().map(Some).collect() } else { vec![None] };
         let mut built = Vec::with_capacity(written.len());
-        for location in written {
+        for (position, location) in written.into_iter().enumerate() {
+            self.symbols.enter_location(location.map(|_| position));
             let place = location.map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
             let mut defined = everywhere.clone();
             let mut constraints = common_constraints.clone();
@@ -91,6 +94,7 @@ impl<'a> Builder<'_, 'a> {
                 transitions,
             });
         }
+        self.symbols.enter_location(None);
         built
     }
 
@@ -170,6 +174,8 @@ impl<'a> Builder<'_, 'a> {
     }
 
     fn transition(&mut self, written: &'a TransitionDeclaration) -> BuiltTransition<'a> {
+        let mistakes = |b: &Self| b.shared.findings.error_count() + b.strays.resets.len();
+        let before = mistakes(self);
         let guard_text = match &written.trigger {
             TriggerDeclaration::When(guard)
             | TriggerDeclaration::On(_, guard)
@@ -211,18 +217,19 @@ impl<'a> Builder<'_, 'a> {
                 }
             }
         };
+        let is_destination = |l: &LocationDeclaration| l.name.value == written.destination.value;
+        let destination = self.declaration.locations.iter().position(is_destination);
         let place = format!(" in transition `{}`", written.name.value);
         let setting = Setting {
             place: &place,
             reads: Place::INSTANT,
             emits: true,
             holds: self.declaration.dialect == Dialect::Hsml,
+            enters: destination,
         };
         let mut actions = self.actions(&written.actions, setting);
-        let is_destination = |l: &LocationDeclaration| l.name.value == written.destination.value;
-        let destination = self.declaration.locations.iter().position(is_destination);
-        if let Some(entered) = destination.and_then(|position| self.declaration.locations.get(position)) {
-            self.start_anew(entered, &mut actions);
+        if let Some(destination) = destination {
+            self.start_anew(destination, &mut actions);
         }
         let fallback = self.component_priority();
         BuiltTransition {
@@ -232,13 +239,16 @@ impl<'a> Builder<'_, 'a> {
             destination,
             actions,
             priority: self.whole_number(written.priority.as_ref(), "a priority", fallback),
+            sound: mistakes(self) == before,
         }
     }
 
     /// What exists in a location only has its declared value on entry, unless the transition assigns it.
-    fn start_anew(&mut self, entered: &LocationDeclaration, actions: &mut Actions) {
-        for variable in &entered.variables {
-            let declared = self.symbols.declared(&variable.name.value).map(|symbol| &symbol.value);
+    fn start_anew(&mut self, entered: usize, actions: &mut Actions) {
+        let Some(location) = self.declaration.locations.get(entered) else { return };
+        for variable in &location.variables {
+            let declared =
+                self.symbols.of_location(entered, &variable.name.value).map(|symbol| &symbol.value);
             let Some(SymbolValue::Variable(symbol)) = declared else { continue };
             for k in 0..symbol.shape.len() as u32 {
                 let id = VariableId(symbol.first.0 + k);
@@ -317,7 +327,8 @@ impl<'a> Builder<'_, 'a> {
         let fallback = self.component_priority();
         let priority = self.whole_number(written.priority.as_ref(), "a priority", fallback);
         let place = format!(" in the event section of `{}`", written.flag.value);
-        let setting = Setting { place: &place, reads: Place::INSTANT, emits: true, holds: true };
+        let setting =
+            Setting { place: &place, reads: Place::INSTANT, emits: true, holds: true, enters: None };
         let rising = written.rising.as_ref().map(|statements| self.actions(statements, setting));
         let falling = written.falling.as_ref().map(|statements| self.actions(statements, setting));
         if written.flag.value.is_empty() {
@@ -365,7 +376,13 @@ impl<'a> Builder<'_, 'a> {
         let delay = written.delay.as_ref().map(|delay| self.seconds(delay, "a delay"));
         let fallback = self.component_priority();
         let priority = self.whole_number(written.priority.as_ref(), "a priority", fallback);
-        let setting = Setting { place: " in this rule", reads: Place::INSTANT, emits: true, holds: false };
+        let setting = Setting {
+            place: " in this rule",
+            reads: Place::INSTANT,
+            emits: true,
+            holds: false,
+            enters: None,
+        };
         let actions = self.actions(&written.actions, setting);
         Some(Rule {
             condition: condition?,
@@ -403,8 +420,12 @@ impl<'a> Builder<'_, 'a> {
             return Vec::new();
         }
         let reads = Place { what: "the `initial` section", ..Place::EQUATION };
-        let setting = Setting { place: " in the `initial` section", reads, emits: false, holds: false };
+        let first = self.first_location();
+        let place = " in the `initial` section";
+        let setting = Setting { place, reads, emits: false, holds: false, enters: first };
+        self.symbols.enter_location(first);
         let actions = self.actions(&declaration.initial, setting);
+        self.symbols.enter_location(None);
         let position: HashMap<VariableId, usize> =
             actions.assignments.iter().enumerate().map(|(position, a)| (a.variable, position)).collect();
         let needs: Vec<Vec<usize>> = actions

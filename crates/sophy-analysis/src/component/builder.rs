@@ -45,6 +45,10 @@ pub(crate) struct Builder<'b, 'a> {
     /// Values of parameters, where they are known.
     pub(crate) values: HashMap<VariableId, f64>,
     pub(crate) strays: Strays,
+    /// Numbers that variables can be, of those with a set of numbers.
+    pub(crate) sets: BTreeMap<VariableId, Rc<[f64]>>,
+    /// Locations of the variables that exist there only.
+    pub(crate) homes: BTreeMap<VariableId, usize>,
     /// Names that some `:=` section assigns.
     pub(crate) assigned: BTreeSet<&'a str>,
     /// Names that some equation defines.
@@ -74,6 +78,8 @@ impl<'b, 'a> Builder<'b, 'a> {
             structural: BTreeSet::new(),
             values: HashMap::new(),
             strays: Strays::default(),
+            sets: BTreeMap::new(),
+            homes: BTreeMap::new(),
             assigned: assigned_names(declaration).into_keys().collect(),
             with_equation: equation_names(declaration).into_keys().collect(),
             suggested: BTreeSet::new(),
@@ -153,7 +159,8 @@ impl<'b, 'a> Builder<'b, 'a> {
         let extents = shape.extents();
         let mut numbers = Vec::with_capacity(indices.len());
         for (place, index) in indices.iter().enumerate() {
-            let number = self.at(Place::PARAMETER).constant_integer(index, "an index")?;
+            let place_of_index = Place { what: "an index", ..Place::PARAMETER };
+            let number = self.at(place_of_index).constant_integer(index, "an index")?;
             let Some(&extent) = extents.get(place) else {
                 self.report(hs0135_index::too_many(name, indices.len(), &shape.to_string(), index.span));
                 return None;

@@ -1,7 +1,7 @@
 use super::automaton::BuiltLocation;
 use super::builder::{Builder, Shared};
 use super::matching::match_constraints;
-use super::statements::{assigned_names, equation_names};
+use super::statements::{assigned_by, assigned_names, defined_by, equation_names};
 use crate::checks::{
     hs0101_unknown_name, hs0102_equation_for_undeclared_state, hs0103_reset_of_undeclared_state,
     hs0104_map_for_undeclared_output, hs0106_unit_for_unknown_name, hs0107_declared_twice,
@@ -13,9 +13,10 @@ use crate::checks::{
     hs0401_constant_guard, hs0402_taken_on_entry, hs0403_round_without_time,
 };
 use crate::declarations::{
-    ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration, VariableRole,
+    ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration,
+    VariableDeclaration, VariableRole,
 };
-use crate::lower::{SymbolKind, SymbolValue};
+use crate::lower::{Symbol, SymbolKind, SymbolValue};
 use sophy_diagnostics::{Diagnostics, Span};
 use sophy_ir::{Actions, Binary, EventSection, Leaf, Node, NodeId, Rule, Special, VariableId, VariableKind};
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -70,6 +71,16 @@ impl<'a> Shared<'a> {
             }
         }
         for (parameter, _) in functions.iter().flat_map(|function| &function.parameters) {
+            if let Some(&(kind, hidden)) = first.get(parameter.value.as_str()) {
+                let (what, hides) = ("a parameter", kind.with_article());
+                self.findings.report(hs0117_hidden_name::of_the_file(
+                    &parameter.value,
+                    parameter.span,
+                    what,
+                    hides,
+                    hidden,
+                ));
+            }
             if hs0117_hidden_name::is_predefined(&parameter.value) {
                 let found = hs0117_hidden_name::diagnostic(&parameter.value, parameter.span, "a parameter");
                 self.findings.report(found);
@@ -129,15 +140,30 @@ impl Builder<'_, '_> {
                 self.report(hs0127_declaration_for_another_kind::section(d.kind, section, suits, span));
             }
         }
+        if let (Some(span), Dtc) = (constraint, d.kind) {
+            self.report(hs0127_declaration_for_another_kind::discrete_constraints(span));
+        }
         let equations = equation_names(d);
         for (name, at) in assigned_names(d) {
-            let is_own = d
-                .variables
-                .iter()
-                .any(|v| v.name.value == name && matches!(v.role, VariableRole::State | VariableRole::Local));
+            // An equation of a state is a mistake of its own; what a location declares, another one may, too.
+            let is_state = |v: &VariableDeclaration| v.name.value == name && v.role == VariableRole::State;
+            let of_location = |l: &LocationDeclaration| l.variables.iter().any(|v| v.name.value == name);
+            let is_own = d.variables.iter().any(is_state) || d.locations.iter().any(of_location);
             if let (Some(&first), false) = (equations.get(name), is_own || d.dialect == Dialect::Xml) {
                 let what = format!("`{name}`, by an equation and by an assignment,");
                 self.report(hs0108_defined_twice::diagnostic(&what, first, at));
+            }
+        }
+        for location in &d.locations {
+            let equations = defined_by(std::iter::once(&location.equations));
+            let actions = location.transitions.iter().flat_map(|transition| &transition.actions);
+            let assigned = assigned_by(actions.collect());
+            for name in location.variables.iter().filter(|v| v.role == VariableRole::Local).map(|v| &v.name) {
+                let twice = equations.get(name.value.as_str()).zip(assigned.get(name.value.as_str()));
+                if let Some((&first, &at)) = twice {
+                    let what = format!("`{}`, by an equation and by an assignment,", name.value);
+                    self.report(hs0108_defined_twice::diagnostic(&what, first, at));
+                }
             }
         }
         if let (Some(clock), true) = (&d.clock, d.kind != Dtc) {
@@ -288,7 +314,7 @@ impl Builder<'_, '_> {
     fn check_strays(&mut self, locations: &[BuiltLocation<'_>], meant: &mut BTreeSet<String>) {
         let strays = std::mem::take(&mut self.strays);
         let names: Vec<(String, SymbolKind)> =
-            self.symbols.names().into_iter().map(|(name, symbol)| (name.to_owned(), symbol.kind)).collect();
+            self.all_names().into_iter().map(|(name, symbol)| (name.to_owned(), symbol.kind)).collect();
         let states: Vec<&str> = names
             .iter()
             .filter(|(_, kind)| *kind == SymbolKind::State)
@@ -333,24 +359,24 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn declared_in(&self) -> HashMap<String, &'_ LocationDeclaration> {
-        let mut places = HashMap::new();
-        for location in &self.declaration.locations {
-            for variable in &location.variables {
-                places.entry(variable.name.value.clone()).or_insert(location);
-            }
-        }
-        places
+    /// Whether a variable exists in a location.
+    fn lives_in(&self, id: VariableId, location: usize) -> bool {
+        self.homes.get(&id).is_none_or(|&home| home == location)
+    }
+
+    /// The name that a variable is declared by, without indices.
+    fn base(&self, id: VariableId) -> &str {
+        let name = &self.variables[id.0 as usize].name;
+        self.symbols.declared_as(id).unwrap_or_else(|| name.split('[').next().unwrap_or(name))
     }
 
     fn check_states(&mut self, locations: &[BuiltLocation<'_>], meant: &BTreeSet<String>) {
         let has_locations = !self.declaration.locations.is_empty();
-        let own = self.declared_in();
         let mut found = Vec::new();
         let mut seen: BTreeSet<String> = BTreeSet::new();
         for state in self.ids_of(|kind| matches!(kind, VariableKind::State(_))) {
             let variable = &self.variables[state.0 as usize];
-            let base = variable.name.split('[').next().unwrap_or("").to_owned();
+            let base = self.base(state).to_owned();
             let span = variable.span.unwrap_or(self.declaration.name.span);
             if meant.contains(&base) || seen.contains(&base) {
                 continue;
@@ -360,12 +386,9 @@ impl Builder<'_, '_> {
                 self.graph.dependencies(nodes).contains(&sophy_ir::Leaf::Variable(state))
             };
             let defines = |l: &&BuiltLocation<'_>| l.defined.rates.contains_key(&state) || constrained(l);
-            let lives = |l: &&BuiltLocation<'_>| match (own.get(&base), l.declaration) {
-                (Some(home), Some(location)) => home.name.span == location.name.span,
-                _ => true,
-            };
+            let living = locations.iter().enumerate().filter(|(k, _)| self.lives_in(state, *k));
             let lacking: Vec<&BuiltLocation<'_>> =
-                locations.iter().filter(lives).filter(|l| !defines(l)).collect();
+                living.map(|(_, location)| location).filter(|l| !defines(l)).collect();
             if lacking.is_empty() {
                 continue;
             }
@@ -394,7 +417,6 @@ impl Builder<'_, '_> {
 
     /// Outputs, locals and flags have an equation in every location, or a constraint determines them.
     fn check_values(&mut self, locations: &[BuiltLocation<'_>], meant: &BTreeSet<String>) {
-        let own = self.declared_in();
         let assigned: BTreeSet<String> =
             assigned_names(self.declaration).into_keys().map(str::to_owned).collect();
         let xml = self.declaration.dialect == Dialect::Xml;
@@ -404,22 +426,18 @@ impl Builder<'_, '_> {
         let with_value =
             |kind| matches!(kind, VariableKind::Local | VariableKind::Flag | VariableKind::Output);
         let ids = self.ids_of(with_value);
-        for location in locations {
-            let lives = |base: &str| match (own.get(base), location.declaration) {
-                (Some(home), Some(written)) => home.name.span == written.name.span,
-                _ => true,
-            };
+        for (position, location) in locations.iter().enumerate() {
             let read = self.graph.dependencies(location.nodes());
             let lacking: Vec<VariableId> = ids
                 .iter()
                 .copied()
                 .filter(|&id| {
-                    let base = self.variables[id.0 as usize].name.split('[').next().unwrap_or("");
+                    let base = self.base(id);
                     let is_local = self.variables[id.0 as usize].kind == VariableKind::Local;
                     let only_assigned =
                         is_local && assigned.contains(base) && !read.contains(&sophy_ir::Leaf::Variable(id));
                     let defined = location.defined.values.contains_key(&id) || meant.contains(base);
-                    lives(base) && !defined && !only_assigned
+                    self.lives_in(id, position) && !defined && !only_assigned
                 })
                 .collect();
             let matched = match_constraints(&self.graph, &location.defined, &location.constraints, &lacking);
@@ -440,7 +458,7 @@ impl Builder<'_, '_> {
         }
         for (id, places) in lacking_maps {
             let variable = &self.variables[id.0 as usize];
-            let base = variable.name.split('[').next().unwrap_or("").to_owned();
+            let base = self.base(id).to_owned();
             let span = variable.span.unwrap_or(self.declaration.name.span);
             if !seen.insert(base) {
                 continue;
@@ -497,6 +515,13 @@ impl Builder<'_, '_> {
         }
     }
 
+    /// What the component declares, also in its locations.
+    fn all_names(&self) -> Vec<(&str, &Symbol<'_>)> {
+        let names = self.symbols.names().into_iter();
+        let own = names.filter(|(name, s)| self.symbols.declared(name).is_some_and(|own| own.span == s.span));
+        own.chain(self.symbols.of_locations().into_iter().map(|(_, name, symbol)| (name, symbol))).collect()
+    }
+
     /// Unknown names, and names that are of no use.
     pub(crate) fn check_uses(&mut self) {
         let unknown = std::mem::take(&mut self.shared.findings.unknown_names);
@@ -516,24 +541,25 @@ impl Builder<'_, '_> {
         let xml = self.declaration.dialect == Dialect::Xml;
         let composite = matches!(self.declaration.kind, ComponentKind::Cc | ComponentKind::System);
         let mut found = Vec::new();
-        for (name, symbol) in self.symbols.names() {
-            if self.symbols.declared(name).is_none_or(|own| own.span != symbol.span) {
-                continue;
-            }
+        for (name, symbol) in self.all_names() {
             if hs0117_hidden_name::is_predefined(name) {
                 found.push(hs0117_hidden_name::diagnostic(name, symbol.span, symbol.kind.with_article()));
+            }
+            if let Some(hidden) = self.shared.globals.get(name).filter(|_| !xml) {
+                let [what, hides] = [symbol.kind, hidden.kind].map(SymbolKind::with_article);
+                found.push(hs0117_hidden_name::of_the_file(name, symbol.span, what, hides, hidden.span));
             }
             let what = match symbol.kind {
                 SymbolKind::Constant => "constant",
                 SymbolKind::Input => "input",
                 SymbolKind::Parameter => "parameter",
                 SymbolKind::Knob => "knob",
-                SymbolKind::Local if !self.is_seen(name) => "local",
+                SymbolKind::Local if !self.is_seen(symbol) => "local",
                 _ => continue,
             };
             let used = self.symbols.used().contains(name) || self.suggested.contains(name);
             let passed_on = composite && symbol.kind == SymbolKind::Input;
-            let visible = !xml && self.is_seen(name);
+            let visible = !xml && self.is_seen(symbol);
             if !(used || passed_on || visible) {
                 found.push(hs0118_unused::diagnostic(what, name, symbol.span));
             }
@@ -544,9 +570,8 @@ impl Builder<'_, '_> {
     }
 
     /// Whether a variable can be seen from outside.
-    fn is_seen(&self, name: &str) -> bool {
-        let found = self.symbols.get(name).map(|symbol| &symbol.value);
-        let Some(SymbolValue::Variable(symbol)) = found else { return true };
+    fn is_seen(&self, symbol: &Symbol<'_>) -> bool {
+        let SymbolValue::Variable(symbol) = &symbol.value else { return true };
         let variable = &self.variables[symbol.first.0 as usize];
         variable.viewed || variable.kind == VariableKind::Output
     }

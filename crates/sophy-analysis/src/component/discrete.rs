@@ -14,7 +14,8 @@ impl<'a> Builder<'_, 'a> {
         let delay = declaration.delay.as_ref().map(|delay| self.seconds(delay, "`tdelay`"));
         let initial = self.initial_section();
         let reads = Place { what: "the `update` section", ..Place::INSTANT };
-        let setting = Setting { place: " in the `update` section", reads, emits: true, holds: false };
+        let setting =
+            Setting { place: " in the `update` section", reads, emits: true, holds: false, enters: None };
         let actions = self.actions(&declaration.update, setting);
         let mut defined = self.define(&declaration.equations, "");
         for &(output, own) in &interface.exported {
@@ -24,6 +25,11 @@ impl<'a> Builder<'_, 'a> {
             defined.values.insert(output, definition);
         }
         self.defined_values = defined.values.keys().copied().collect();
+        for name in &defined.meant {
+            if let Some(SymbolValue::Variable(symbol)) = self.symbols.declared(name).map(|s| &s.value) {
+                self.defined_values.extend(Builder::elements(symbol.first, symbol.shape.len()));
+            }
+        }
         let values = self.sorted(&defined, &[], "");
         let clock = self.clock(&actions.assignments);
         if declaration.clock.is_none() {

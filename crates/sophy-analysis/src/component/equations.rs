@@ -8,7 +8,7 @@ use crate::declarations::{
     ComponentKind, Dialect, Direction, EquationDeclaration, EquationItem, Equations, ExpressionText, Loop,
     Target,
 };
-use crate::lower::{Expected, Place, Shape, SymbolKind, SymbolValue, Typed, VariableSymbol};
+use crate::lower::{Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, Typed, VariableSymbol};
 use sophy_diagnostics::Span;
 use sophy_ir::{Graph, Leaf, Node, NodeId, VariableId};
 use std::collections::BTreeMap;
@@ -65,7 +65,11 @@ impl<'a> Builder<'_, 'a> {
             match item {
                 EquationItem::Equation(equation) => self.define_one(equation, section, place, defined),
                 EquationItem::For(turns) => {
+                    let errors = self.shared.findings.error_count();
                     self.each_turn(turns, |b| b.define_items(&turns.items, section, place, defined));
+                    if self.shared.findings.error_count() > errors {
+                        defined.meant.extend(targets(&turns.items)); // in turns that were not looked at
+                    }
                 }
                 EquationItem::If { branches, otherwise, span } => {
                     let branches_defined =
@@ -78,9 +82,19 @@ impl<'a> Builder<'_, 'a> {
 
     /// Runs `turn` once for each value of the loop variable.
     pub(crate) fn each_turn<T>(&mut self, turns: &'a Loop<T>, mut turn: impl FnMut(&mut Self)) {
-        let from = self.at(Place::PARAMETER).constant_integer(&turns.from, "the first value of a loop");
-        let to = self.at(Place::PARAMETER).constant_integer(&turns.to, "the last value of a loop");
-        let (Some(from), Some(to)) = (from, to) else { return };
+        let place = Place { what: "a bound of a loop", ..Place::PARAMETER };
+        let from = self.at(place).constant_integer(&turns.from, "the first value of a loop");
+        let to = self.at(place).constant_integer(&turns.to, "the last value of a loop");
+        let (Some(from), Some(to)) = (from, to) else {
+            // Other mistakes of the turn are looked for all the same.
+            let mark = self.symbols.enter();
+            let (kind, span) = (SymbolKind::LoopVariable, turns.variable.span);
+            let unknown = Symbol { kind, span, value: SymbolValue::Broken };
+            self.symbols.bind_symbol(&turns.variable.value, unknown);
+            turn(self);
+            self.symbols.leave(mark);
+            return;
+        };
         if to.saturating_sub(from) >= MOST_TURNS {
             self.report(hs0131_loop_bounds::too_many(from, to, turns.from.span, turns.to.span));
             return;
@@ -255,6 +269,7 @@ impl<'a> Builder<'_, 'a> {
                 defined.meant.push(name.value.clone());
                 return None;
             }
+            None if self.is_of_another_location(name) => return None,
             found => {
                 let found = found.map(|(kind, span, _)| (kind, span));
                 let stray = Stray { name: name.value.clone(), span: name.span, found };
@@ -270,7 +285,10 @@ impl<'a> Builder<'_, 'a> {
         if is_rate {
             expected.measured = expected.measured.rate();
         }
-        let ids = self.target_elements(&equation.target, &symbol)?;
+        let Some(ids) = self.target_elements(&equation.target, &symbol) else {
+            defined.meant.push(name.value.clone());
+            return None;
+        };
         if !equation.target.indices.is_empty() {
             expected.shape = shape_of_part(symbol.shape, equation.target.indices.len());
         }
@@ -302,6 +320,23 @@ impl<'a> Builder<'_, 'a> {
             self.report(hs0111_output_differs_from_state::diagnostic(map, declared));
         }
     }
+}
+
+/// The names that equations define.
+fn targets(items: &[EquationItem]) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut pending: Vec<&EquationItem> = items.iter().collect();
+    while let Some(item) = pending.pop() {
+        match item {
+            EquationItem::Equation(equation) => names.push(equation.target.name.value.clone()),
+            EquationItem::For(turns) => pending.extend(&turns.items),
+            EquationItem::If { branches, otherwise, .. } => {
+                pending.extend(branches.iter().flat_map(|(_, items)| items));
+                pending.extend(otherwise.iter().flatten());
+            }
+        }
+    }
+    names
 }
 
 /// What is left of a shape after `indices` indices.

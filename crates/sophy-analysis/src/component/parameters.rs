@@ -44,7 +44,7 @@ impl<'a> Builder<'_, 'a> {
         for cycle in &sorted.cycles {
             let members: Vec<&ParameterDeclaration> =
                 cycle.iter().filter_map(|&index| parameters[index].value).collect();
-            self.report(hs0301_circular_constants::parameters(&members));
+            self.report(hs0301_circular_constants::parameters(&members, self.declaration.dialect));
         }
         for index in sorted.order {
             self.lower_parameter(&parameters[index]);

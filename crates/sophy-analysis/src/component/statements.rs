@@ -3,14 +3,14 @@ use super::checks::Stray;
 use super::equations::shape_of_part;
 use crate::checks::{
     hs0108_defined_twice, hs0126_out_of_range, hs0132_unknown_event, hs0133_not_assignable,
-    hs0134_hold_without_flag, hs0147_read_before_assigned,
+    hs0134_hold_without_flag, hs0147_read_before_assigned, hs0148_of_another_location,
 };
 use crate::declarations::{
-    ComponentDeclaration, Dialect, EquationItem, ExpressionText, Spanned, Statement, Target,
+    ComponentDeclaration, Dialect, EquationItem, Equations, ExpressionText, Spanned, Statement, Target,
 };
-use crate::lower::{Elements, Place, SymbolKind, SymbolValue, Typed};
+use crate::lower::{Elements, Place, Symbol, SymbolKind, SymbolValue, Typed};
 use sophy_diagnostics::Span;
-use sophy_ir::{Actions, Assignment, Emission, Leaf, NodeId, VariableId, VariableKind};
+use sophy_ir::{Actions, Assignment, Emission, Leaf, Node, NodeId, VariableId, VariableKind};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Where statements stand, and what they may do there.
@@ -24,6 +24,8 @@ pub(crate) struct Setting<'s> {
     pub(crate) emits: bool,
     /// Whether `hold` has a meaning.
     pub(crate) holds: bool,
+    /// The location that is entered then, if one is: what exists only there can be assigned.
+    pub(crate) enters: Option<usize>,
 }
 
 /// New values so far, element by element.
@@ -89,43 +91,51 @@ impl<'a> Builder<'_, 'a> {
     ) {
         let name = &target.name;
         let reads = doing.setting.reads;
-        let found =
-            self.symbols.declared(&name.value).map(|symbol| (symbol.kind, symbol.span, symbol.value.clone()));
+        let found = self.assigned_symbol(name, doing);
         let assignable = match &found {
             _ if name.value.is_empty() => false,
-            Some((_, _, SymbolValue::Broken)) => false,
-            Some((SymbolKind::State | SymbolKind::Mode | SymbolKind::Local, ..)) => true,
+            Some(Symbol { value: SymbolValue::Broken, .. }) => false,
+            Some(symbol) if self.is_left(symbol, name, doing) => false,
+            Some(Symbol { kind: SymbolKind::State | SymbolKind::Mode | SymbolKind::Local, .. }) => true,
             found if self.declaration.dialect == Dialect::Xml => {
-                let found = found.as_ref().map(|(kind, span, _)| (*kind, *span));
+                let found = found.as_ref().map(|symbol| (symbol.kind, symbol.span));
                 self.strays.resets.push(Stray { name: name.value.clone(), span: name.span, found });
                 false
             }
-            Some((kind, declared, _)) => {
-                self.report(hs0133_not_assignable::diagnostic(name, *kind, *declared));
+            Some(symbol) => {
+                self.report(hs0133_not_assignable::diagnostic(name, symbol.kind, symbol.span));
                 false
             }
             None => {
-                let diagnostic = hs0133_not_assignable::unknown(name, &self.symbols);
-                self.report(diagnostic);
+                let enters_nothing = self.symbols.is_in_location() && doing.setting.enters.is_none();
+                let is_guess = enters_nothing && !self.symbols.elsewhere(&name.value).is_empty();
+                if !is_guess && !self.is_of_another_location(name) {
+                    let diagnostic = hs0133_not_assignable::unknown(name, &self.symbols);
+                    self.report(diagnostic);
+                }
                 false
             }
         };
-        let wanted = if assignable { self.expected(&name.value, "") } else { None };
-        let Some((symbol, mut expected)) = wanted else {
+        let symbol = found.as_ref().filter(|_| assignable);
+        let Some((symbol, mut expected)) = symbol.and_then(|s| Builder::expected_of(s, &name.value, ""))
+        else {
             self.at(reads).value(right);
             return;
         };
-        let Some(ids) = self.target_elements(target, &symbol) else { return };
+        let Some(ids) = self.target_elements(target, &symbol) else {
+            self.at(reads).value(right);
+            return;
+        };
         expected.shape = shape_of_part(symbol.shape, target.indices.len());
         let value = self.at(reads).value_for(right, &expected);
         let nodes = value.as_ref().map(|value| value.elements.as_slice().to_vec());
         if let Some(nodes) = &nodes
-            && !matches!(found, Some((SymbolKind::Local, ..)))
+            && !matches!(found, Some(Symbol { kind: SymbolKind::Local, .. }))
         {
             self.check_assigned_before(nodes, right.span);
             self.check_assigned_range(&ids, nodes, right.span);
         }
-        let is_local = matches!(found, Some((SymbolKind::Local, ..)));
+        let is_local = matches!(found, Some(Symbol { kind: SymbolKind::Local, .. }));
         if is_local {
             self.assign_local(target, &ids, symbol.first, value, new);
             if self.is_held_local(&name.value) {
@@ -138,7 +148,10 @@ impl<'a> Builder<'_, 'a> {
         }
         for (k, id) in ids.into_iter().enumerate() {
             let node = nodes.as_ref().and_then(|nodes| nodes.get(k).copied());
-            if let Some(&(_, _, first)) = new.values.get(&id) {
+            // A loop that does one statement several times ends with what the last turn assigns.
+            if let Some(&(_, _, first)) = new.values.get(&id)
+                && first != name_span(target)
+            {
                 let name = &self.variables[id.0 as usize].name;
                 let what = match self.declaration.dialect {
                     Dialect::Xml => format!("the reset of `{name}`{}", doing.setting.place),
@@ -151,9 +164,48 @@ impl<'a> Builder<'_, 'a> {
         }
     }
 
+    /// What an assignment to a name is about: that of the location that is entered before all others.
+    fn assigned_symbol(&self, name: &Spanned<String>, doing: &Doing<'_>) -> Option<Symbol<'a>> {
+        let entered = doing.setting.enters.and_then(|entered| self.symbols.of_location(entered, &name.value));
+        let entered = entered.filter(|symbol| symbol.kind != SymbolKind::Local);
+        entered.or_else(|| self.symbols.declared(&name.value)).cloned()
+    }
+
+    /// Whether something is assigned that ends with the location that is left; says so.
+    fn is_left(&mut self, symbol: &Symbol<'a>, name: &Spanned<String>, doing: &Doing<'_>) -> bool {
+        let SymbolValue::Variable(variable) = &symbol.value else { return false };
+        let home = self.homes.get(&variable.first).copied();
+        let Some(home) = home.filter(|_| home != doing.setting.enters) else { return false };
+        if symbol.kind == SymbolKind::Local || doing.setting.enters.is_none() {
+            return false; // holds until the last statement; enters nobody knows what
+        }
+        let place = self.symbols.locations.get(home).cloned().unwrap_or_default();
+        let found =
+            hs0148_of_another_location::left(&name.value, name.span, symbol.kind, &place, symbol.span);
+        self.report(found);
+        true
+    }
+
+    /// Whether a name that is not known here is declared by other locations for themselves; says so.
+    pub(crate) fn is_of_another_location(&mut self, name: &Spanned<String>) -> bool {
+        let Some(&(location, symbol)) = self.symbols.elsewhere(&name.value).first() else { return false };
+        let place = self.symbols.locations.get(location).map_or("", String::as_str);
+        let found =
+            hs0148_of_another_location::diagnostic(&name.value, name.span, symbol.kind, place, symbol.span);
+        self.report(found);
+        true
+    }
+
     /// Complains about a number outside the range of the variable that it is assigned to.
     fn check_assigned_range(&mut self, ids: &[VariableId], nodes: &[NodeId], at: Span) {
         for (&id, &node) in ids.iter().zip(nodes) {
+            if let Some(set) = self.sets.get(&id)
+                && self.outcomes(node).iter().any(|outcome| !set.contains(outcome))
+            {
+                let variable = &self.variables[id.0 as usize];
+                let (name, declared) = (variable.name.clone(), variable.span.unwrap_or(at));
+                self.report(hs0126_out_of_range::not_in_set(&name, at, declared));
+            }
             let variable = &self.variables[id.0 as usize];
             let (Some([low, high]), Some(value)) = (variable.range, self.known_value(node)) else { continue };
             let (Some(low), Some(high)) = (self.known_value(low), self.known_value(high)) else { continue };
@@ -162,6 +214,23 @@ impl<'a> Builder<'_, 'a> {
                 self.report(hs0126_out_of_range::diagnostic(&name, value, low, high, at, declared));
             }
         }
+    }
+
+    /// Numbers that a value can be, as far as they are known.
+    fn outcomes(&self, node: NodeId) -> Vec<f64> {
+        let mut found = Vec::new();
+        let mut seen = BTreeSet::new();
+        let mut pending = vec![node];
+        while let Some(node) = pending.pop() {
+            if !seen.insert(node) {
+                continue;
+            }
+            match self.graph.node(node) {
+                Node::Select(_, a, b) => pending.extend([b, a]),
+                _ => found.extend(self.known_value(node)),
+            }
+        }
+        found
     }
 
     fn assign_local(
@@ -271,7 +340,7 @@ impl<'a> Builder<'_, 'a> {
         for leaf in self.graph.dependencies(nodes.iter().copied()) {
             let Leaf::Variable(id) = leaf else { continue };
             let Some(variable) = self.variables.get(id.0 as usize) else { continue };
-            let base = variable.name.split('[').next().unwrap_or(&variable.name);
+            let base = self.symbols.declared_as(id).unwrap_or(&variable.name);
             if variable.kind == VariableKind::Local && !self.with_equation.contains(base) {
                 let (name, declared) = (variable.name.clone(), variable.span);
                 self.report(hs0147_read_before_assigned::diagnostic(&name, at, declared));
@@ -326,7 +395,6 @@ fn name_span(target: &Target) -> Span {
 
 /// Names that some `:=` section of a component assigns, with a place where it does.
 pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeMap<&str, Span> {
-    let mut names = BTreeMap::new();
     let mut pending: Vec<&Statement> = Vec::new();
     let d = declaration;
     pending.extend(d.update.iter());
@@ -336,6 +404,12 @@ pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeMap<&st
         pending.extend(event.rising.iter().chain(&event.falling).flatten());
     }
     pending.extend(d.rules.iter().flat_map(|rule| &rule.actions));
+    assigned_by(pending)
+}
+
+/// Names that statements assign, with a place where they do.
+pub(crate) fn assigned_by(mut pending: Vec<&Statement>) -> BTreeMap<&str, Span> {
+    let mut names = BTreeMap::new();
     while let Some(statement) = pending.pop() {
         match statement {
             Statement::Assign { target, .. } => {
@@ -354,9 +428,13 @@ pub(crate) fn assigned_names(declaration: &ComponentDeclaration) -> BTreeMap<&st
 
 /// Names that some equation `name = …` of a component defines, with a place where it does.
 pub(crate) fn equation_names(declaration: &ComponentDeclaration) -> BTreeMap<&str, Span> {
+    let of_locations = declaration.locations.iter().map(|location| &location.equations);
+    defined_by(std::iter::once(&declaration.equations).chain(of_locations))
+}
+
+/// Names that equations `name = …` define, with a place where they do.
+pub(crate) fn defined_by<'d>(sections: impl Iterator<Item = &'d Equations>) -> BTreeMap<&'d str, Span> {
     let mut names = BTreeMap::new();
-    let sections =
-        std::iter::once(&declaration.equations).chain(declaration.locations.iter().map(|l| &l.equations));
     let mut pending: Vec<&EquationItem> = sections.flat_map(|e| e.dynamics.iter().chain(&e.output)).collect();
     while let Some(item) = pending.pop() {
         match item {

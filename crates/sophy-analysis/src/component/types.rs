@@ -11,6 +11,8 @@ use sophy_ir::{NodeId, Quantity};
 pub(crate) struct Range {
     pub(crate) bounds: Option<[NodeId; 2]>,
     pub(crate) choices: Vec<usize>,
+    /// The numbers of a set, if they are known.
+    pub(crate) numbers: Vec<f64>,
     /// What kind of values a set lists.
     pub(crate) quantity: Option<Quantity>,
 }
@@ -72,7 +74,8 @@ impl<'a> Builder<'_, 'a> {
     fn shape(&mut self, written: &'a TypeText) -> Option<Shape> {
         let mut extents = Vec::new();
         for extent in &written.shape {
-            let value = self.at(Place::PARAMETER).constant_integer(extent, "an extent")?;
+            let place = Place { what: "an extent", ..Place::PARAMETER };
+            let value = self.at(place).constant_integer(extent, "an extent")?;
             match usize::try_from(value) {
                 Ok(count) if (1..=hs0121_extent::LARGEST).contains(&count) => extents.push(count),
                 _ => {
@@ -140,6 +143,7 @@ impl<'a> Builder<'_, 'a> {
             }
             Some(RangeText::Set(items)) => {
                 let mut choices = Vec::new();
+                let mut numbers = Vec::new();
                 let mut quantity = None;
                 for item in items {
                     let Some(value) = self.at(Place::PARAMETER).value(item) else { continue };
@@ -147,9 +151,14 @@ impl<'a> Builder<'_, 'a> {
                     let number = value.node().and_then(|node| self.graph.as_number(node));
                     if let (Quantity::Text, Some(number)) = (value.quantity, number) {
                         choices.push(number as usize);
+                    } else if matches!(value.quantity, Quantity::Real | Quantity::Integer) {
+                        numbers.extend(value.node().and_then(|node| self.known_value(node)));
                     }
                 }
-                Range { bounds: None, choices, quantity }
+                if numbers.len() < items.len() {
+                    numbers.clear();
+                }
+                Range { bounds: None, choices, numbers, quantity }
             }
         }
     }

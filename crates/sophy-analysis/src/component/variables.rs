@@ -12,7 +12,7 @@ use crate::lower::{Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, Vari
 use crate::units::Measured;
 use sophy_diagnostics::Span;
 use sophy_ir::{EventPort, Quantity, Variable, VariableId, VariableKind};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
 /// A port, for those who connect it.
@@ -64,6 +64,9 @@ impl<'a> Builder<'_, 'a> {
         for variable in declaration.variables.iter().chain(locations) {
             self.symbols.foreshadow(&variable.name.value, role_kind(variable.role), variable.name.span);
         }
+        if let Some(ClockDeclaration::Announced { name, .. }) = &declaration.clock {
+            self.symbols.foreshadow(&name.value, SymbolKind::Mode, name.span);
+        }
         for port in &declaration.ports {
             let kind = match port.direction {
                 Direction::Input => SymbolKind::Input,
@@ -80,11 +83,11 @@ impl<'a> Builder<'_, 'a> {
         let mut interface = Interface::default();
         let assigned: BTreeSet<&str> = assigned_names(declaration).into_keys().collect();
         let mut of_body: BTreeMap<&str, &VariableDeclaration> = BTreeMap::new();
-        let everywhere = declaration.variables.iter();
-        for variable in everywhere.chain(declaration.locations.iter().flat_map(|l| &l.variables)) {
+        for variable in &declaration.variables {
             of_body.entry(&variable.name.value).or_insert(variable);
             self.declare_variable(variable);
         }
+        self.declare_variables_of_locations();
         if let Some(ClockDeclaration::Announced { name, .. }) = &declaration.clock {
             self.declare_clock(name);
         }
@@ -101,6 +104,32 @@ impl<'a> Builder<'_, 'a> {
         self.symbols.nothing_coming();
         self.declare_views();
         interface
+    }
+
+    /// What a location declares exists there only, so that another one may use the name for something else.
+    fn declare_variables_of_locations(&mut self) {
+        for (position, location) in self.declaration.locations.iter().enumerate() {
+            self.symbols.enter_location(Some(position));
+            for variable in &location.variables {
+                let first = self.variables.len() as u32;
+                self.declare_variable(variable);
+                self.homes.extend((first..self.variables.len() as u32).map(|id| (VariableId(id), position)));
+            }
+        }
+        self.symbols.enter_location(None);
+        // Seen from outside the names must differ.
+        let mut locations: HashMap<String, usize> = HashMap::new();
+        for (_, name, _) in self.symbols.of_locations() {
+            *locations.entry(name.to_owned()).or_default() += 1;
+        }
+        for (id, &position) in &self.homes {
+            let name = self.symbols.declared_as(*id).unwrap_or("");
+            let Some(location) = self.declaration.locations.get(position) else { continue };
+            if locations.get(name).is_some_and(|&count| count > 1) {
+                let variable = &mut self.variables[id.0 as usize];
+                variable.name = format!("{}.{}", location.name.value, variable.name);
+            }
+        }
     }
 
     /// SOPHY XML has no interface for events: the labels are those of the transitions.
@@ -255,6 +284,10 @@ impl<'a> Builder<'_, 'a> {
 
     fn push_variables(&mut self, declared: &Declared<'_>, kind: VariableKind) {
         for k in 0..declared.shape.len() {
+            if !declared.range.numbers.is_empty() {
+                let id = VariableId(self.variables.len() as u32);
+                self.sets.insert(id, Rc::from(declared.range.numbers.as_slice()));
+            }
             self.variables.push(Variable {
                 name: format!("{}{}", declared.name.value, declared.shape.suffix(k)),
                 kind,
@@ -491,19 +524,24 @@ impl<'a> Builder<'_, 'a> {
 
     fn declare_views(&mut self) {
         for view in &self.declaration.views {
-            let found = self.symbols.look_up(&view.value).map(|symbol| symbol.value);
-            match found {
-                Some(SymbolValue::Variable(symbol)) => {
-                    let start = symbol.first.0 as usize;
-                    for variable in self.variables.iter_mut().skip(start).take(symbol.shape.len()) {
-                        variable.viewed = true;
+            let everywhere = self.symbols.look_up(&view.value).map(|symbol| symbol.value);
+            let elsewhere = self.symbols.elsewhere(&view.value);
+            let found: Vec<SymbolValue<'_>> =
+                everywhere.into_iter().chain(elsewhere.into_iter().map(|(_, s)| s.value.clone())).collect();
+            if found.is_empty() {
+                let diagnostic = hs0124_unknown_view::diagnostic(view, &self.symbols);
+                self.report(diagnostic);
+            }
+            for value in found {
+                match value {
+                    SymbolValue::Variable(symbol) => {
+                        let start = symbol.first.0 as usize;
+                        for variable in self.variables.iter_mut().skip(start).take(symbol.shape.len()) {
+                            variable.viewed = true;
+                        }
                     }
-                }
-                Some(SymbolValue::Broken) => {}
-                Some(_) => self.report(hs0124_unknown_view::no_variable(view)),
-                None => {
-                    let diagnostic = hs0124_unknown_view::diagnostic(view, &self.symbols);
-                    self.report(diagnostic);
+                    SymbolValue::Broken => {}
+                    _ => self.report(hs0124_unknown_view::no_variable(view)),
                 }
             }
         }
@@ -512,33 +550,41 @@ impl<'a> Builder<'_, 'a> {
     /// Values that declarations give at the start; all names are known by now.
     pub(crate) fn initial_values(&mut self) {
         let declaration = self.declaration;
-        let everywhere = declaration.variables.iter();
-        let all = everywhere.chain(declaration.locations.iter().flat_map(|l| &l.variables));
-        for variable in all {
-            let Some(initial) = &variable.initial else { continue };
-            self.initial_value(&variable.name, initial, variable.range.as_ref());
+        let of_locations = declaration.locations.iter().enumerate().map(|(k, l)| (Some(k), &l.variables));
+        for (location, variables) in std::iter::once((None, &declaration.variables)).chain(of_locations) {
+            self.symbols.enter_location(location);
+            for variable in variables {
+                let Some(initial) = &variable.initial else { continue };
+                self.initial_value(&variable.name, initial, variable.range.as_ref());
+            }
         }
+        self.symbols.enter_location(None);
         if let Some(ClockDeclaration::Announced { name, initial: Some(initial) }) = &declaration.clock {
             self.initial_value(name, initial, None);
         }
         self.resting_states();
     }
 
+    /// The location that a run starts in.
+    pub(crate) fn first_location(&self) -> Option<usize> {
+        let locations = &self.declaration.locations;
+        match &self.declaration.initial_location {
+            Some(first) => locations.iter().position(|location| location.name.value == first.value),
+            None => (!locations.is_empty()).then_some(0),
+        }
+    }
+
     /// States of a location that a run does not start in do not exist at the start: any value will do.
     fn resting_states(&mut self) {
         let declaration = self.declaration;
-        let is_first = |position: usize, name: &str| match &declaration.initial_location {
-            Some(first) => first.value == name,
-            None => position == 0,
-        };
+        let first = self.first_location();
         for (position, location) in declaration.locations.iter().enumerate() {
-            if is_first(position, &location.name.value) {
+            if first == Some(position) {
                 continue;
             }
             for variable in location.variables.iter().filter(|v| v.role == VariableRole::State) {
-                let Some(SymbolValue::Variable(symbol)) =
-                    self.symbols.declared(&variable.name.value).map(|symbol| symbol.value.clone())
-                else {
+                let declared = self.symbols.of_location(position, &variable.name.value);
+                let Some(SymbolValue::Variable(symbol)) = declared.map(|symbol| symbol.value.clone()) else {
                     continue;
                 };
                 let zero = self.graph.number(0.0);
@@ -574,7 +620,15 @@ impl<'a> Builder<'_, 'a> {
 
     /// What the right-hand side for a variable must be; `prefix` and `suffix` make the words of a message.
     pub(crate) fn expected(&self, name: &str, around: &str) -> Option<(VariableSymbol, Expected)> {
-        let symbol = self.symbols.declared(name)?;
+        Builder::expected_of(self.symbols.declared(name)?, name, around)
+    }
+
+    /// The same for what a name stands for.
+    pub(crate) fn expected_of(
+        symbol: &Symbol<'a>,
+        name: &str,
+        around: &str,
+    ) -> Option<(VariableSymbol, Expected)> {
         let SymbolValue::Variable(variable) = &symbol.value else { return None };
         let what = if around.is_empty() { format!("`{name}`") } else { format!("`{around}({name})`") };
         let expected = Expected {

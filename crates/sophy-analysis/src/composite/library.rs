@@ -2,7 +2,7 @@ use super::build::build_composite;
 use crate::component::{Built, Given, GivenValue, Interface, Shared, build};
 use crate::declarations::{ComponentDeclaration, ComponentKind};
 use crate::lower::Expected;
-use sophy_diagnostics::Diagnostics;
+use sophy_diagnostics::{Diagnostics, Severity};
 use sophy_ir::{Class, ClassIndex};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::rc::Rc;
@@ -10,8 +10,8 @@ use std::rc::Rc;
 /// How deep composites may be nested in specialised form: each level is one of recursion.
 const DEEPEST: usize = 200;
 
-/// In how many forms a component may have mistakes before the others are taken to have them, too.
-const MOST_BROKEN: usize = 16;
+/// In how many forms a component may be suspect before it is no longer looked for the values that are to blame.
+const MOST_SUSPECT: usize = 16;
 
 /// A component with what decides its structure fixed.
 #[derive(Debug)]
@@ -20,10 +20,10 @@ pub(crate) struct Entry {
     component: usize,
     /// Position among all entries.
     pub(crate) number: usize,
-    /// What is fixed.
-    pub(crate) given: Given,
     /// What is to be said of it, if it is used in this form.
     diagnostics: Diagnostics,
+    /// Whether there is more to be said of it or of a member than a note.
+    is_suspect: bool,
     /// What its members are, if it is a composite.
     members: Vec<Rc<Entry>>,
     /// `None` if it has mistakes.
@@ -45,8 +45,8 @@ pub(crate) struct Library<'a> {
     by_name: HashMap<&'a str, usize>,
     pub(crate) classes: Vec<Class>,
     entries: HashMap<Key, Rc<Entry>>,
-    /// By component: how many forms have mistakes.
-    broken: HashMap<usize, usize>,
+    /// By component: how many forms are suspect.
+    suspect: HashMap<usize, usize>,
     /// How many entries were made.
     made: usize,
     depth: usize,
@@ -63,7 +63,7 @@ impl<'a> Library<'a> {
             by_name,
             classes: Vec::new(),
             entries: HashMap::new(),
-            broken: HashMap::new(),
+            suspect: HashMap::new(),
             made: 0,
             depth: 0,
         }
@@ -75,7 +75,7 @@ impl<'a> Library<'a> {
     }
 
     /// The form of a component for parameters that have the `given` values: only what decides its structure is
-    /// fixed, and, where the form so found has mistakes, all of them, for the mistakes may come from its own values.
+    /// fixed, and, where the form so found is suspect, all of them, for its own values may be to blame.
     pub(crate) fn entry(&mut self, shared: &mut Shared<'a>, component: usize, given: &Given) -> Rc<Entry> {
         let mut given_here = Given::new();
         loop {
@@ -83,25 +83,23 @@ impl<'a> Library<'a> {
             let entry = match self.entries.get(&key) {
                 Some(known) => Rc::clone(known),
                 None => {
-                    let made = Rc::new(self.make(shared, component, given_here.clone()));
+                    let made = Rc::new(self.make(shared, component, &given_here));
                     self.entries.insert(key, Rc::clone(&made));
                     made
                 }
             };
-            let is_broken = entry.class.is_none();
-            if is_broken && self.broken.get(&component).is_some_and(|&count| count > MOST_BROKEN) {
-                return entry;
-            }
+            let is_suspect =
+                entry.is_suspect && self.suspect.get(&component).is_some_and(|&count| count <= MOST_SUSPECT);
             // What decides the structure is known only once it was built.
             let changed = fix(&mut given_here, given, &entry, |name| entry.structural.contains(name))
-                || is_broken && fix(&mut given_here, given, &entry, |_| true);
+                || is_suspect && fix(&mut given_here, given, &entry, |_| true);
             if !changed {
                 return entry;
             }
         }
     }
 
-    fn make(&mut self, shared: &mut Shared<'a>, component: usize, given: Given) -> Entry {
+    fn make(&mut self, shared: &mut Shared<'a>, component: usize, given: &Given) -> Entry {
         let declaration = self.components[component];
         let composite = matches!(declaration.kind, ComponentKind::Cc | ComponentKind::System);
         let number = self.made;
@@ -110,8 +108,8 @@ impl<'a> Library<'a> {
             return Entry {
                 component,
                 number,
-                given,
                 diagnostics: Diagnostics::default(),
+                is_suspect: true,
                 members: Vec::new(),
                 class: None,
                 interface: Interface::default(),
@@ -122,21 +120,32 @@ impl<'a> Library<'a> {
         self.depth += 1;
         let findings = std::mem::take(&mut shared.findings);
         let (built, members) = if composite {
-            build_composite(declaration, self, shared, &given)
+            build_composite(declaration, self, shared, given)
         } else {
-            (build(declaration, shared, &given), Vec::new())
+            (build(declaration, shared, given), Vec::new())
         };
         let diagnostics = std::mem::replace(&mut shared.findings, findings).diagnostics;
         self.depth -= 1;
         let Built { class, interface, parameters, structural } = built;
-        if class.is_none() {
-            *self.broken.entry(component).or_default() += 1;
-        }
         let class = class.map(|class| {
             self.classes.push(class);
             ClassIndex(self.classes.len() as u32 - 1)
         });
-        Entry { component, number, given, diagnostics, members, class, interface, parameters, structural }
+        let is_suspect = class.is_none()
+            || diagnostics.iter().any(|found| found.severity != Severity::Note)
+            || members.iter().any(|member| member.is_suspect);
+        *self.suspect.entry(component).or_default() += usize::from(is_suspect);
+        Entry {
+            component,
+            number,
+            diagnostics,
+            is_suspect,
+            members,
+            class,
+            interface,
+            parameters,
+            structural,
+        }
     }
 }
 

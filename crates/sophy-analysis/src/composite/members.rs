@@ -279,10 +279,8 @@ fn parameters<'a>(
     let mut parameters = Vec::new();
     for (name, text, value) in values {
         // What decides the structure of a member decides that of the composite, too.
-        let is_fixed = entry.given.get(&name.value).is_some_and(|given| given.values.is_some());
-        if is_fixed {
-            builder.at(Place::PARAMETER).known(&value);
-        } else if entry.structural.contains(&name.value) {
+        let decides = entry.structural.contains(&name.value);
+        if decides && builder.at(Place::PARAMETER).known(&value).is_none() {
             builder.report(hs0139_unknown_parameter::not_known(name, &written.component, text.span));
         }
         let nodes = builder.at(Place::PARAMETER).stored(&value);

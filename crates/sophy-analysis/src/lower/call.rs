@@ -3,7 +3,7 @@
 use super::expression::Reader;
 use super::functions::usage_of;
 use super::reduction::Combination;
-use super::scope::{SymbolKind, SymbolValue};
+use super::scope::{Place, SymbolKind, SymbolValue};
 use super::typed::{Shape, Typed, Varies};
 use crate::checks::{
     hs0201_unknown_function, hs0202_wrong_number_of_arguments, hs0209_units, hs0211_shape, hs0212_index,
@@ -295,7 +295,12 @@ impl Reader<'_, '_, '_> {
                 self.combined(Combination::named(name)?, name, elements, span)
             }
             A::Size => {
-                let value = self.expression(first)?;
+                // Only the shape counts, which is known of what varies, too.
+                let place = self.lowering.place;
+                self.lowering.place = Place { most: Varies::Continuously, ..place };
+                let value = self.expression(first);
+                self.lowering.place = place;
+                let value = value?;
                 let extents = value.shape.extents();
                 let which = match written.get(1) {
                     Some(which) => self.known_integer(which, "which extent is meant")?,

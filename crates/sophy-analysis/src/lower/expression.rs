@@ -1,6 +1,7 @@
 use super::lowering::{Lowering, whole};
 use super::scope::{Numbers, SymbolValue, VariableSymbol};
 use super::typed::{Elements, Shape, Typed, Varies};
+use crate::checks::hs0148_of_another_location;
 use crate::checks::{
     hs0203_number_as_condition, hs0205_division_by_zero, hs0207_not_available,
     hs0208_function_without_arguments, hs0209_units, hs0210_wrong_kind, hs0211_shape, hs0217_no_such_part,
@@ -151,6 +152,10 @@ impl<'a> Reader<'_, '_, 'a> {
                 if variable.varies > self.lowering.place.most {
                     return self.not_available(name, span, what);
                 }
+                if variable.is_coming() {
+                    self.report(hs0207_not_available::too_early(span, name, symbol.span));
+                    return None;
+                }
                 Some(self.lowering.leaves(&variable, 0..variable.shape.len(), variable.shape))
             }
             SymbolValue::Numbers(numbers) => Some(self.lowering.numbers(&numbers)),
@@ -186,6 +191,9 @@ impl<'a> Reader<'_, '_, 'a> {
         }
         let at_instants =
             self.lowering.place.most >= Varies::Instants && !self.lowering.symbols.in_function();
+        if self.of_another_location(name, span) {
+            return None;
+        }
         match name {
             "pi" => {
                 let node = self.graph().number(std::f64::consts::PI);
@@ -220,6 +228,16 @@ impl<'a> Reader<'_, '_, 'a> {
                 None
             }
         }
+    }
+
+    /// Says so if a name is one that only other locations have.
+    fn of_another_location(&mut self, name: &str, span: Span) -> bool {
+        let symbols = &self.lowering.symbols;
+        let Some(&(location, symbol)) = symbols.elsewhere(name).first() else { return false };
+        let place = symbols.locations.get(location).map_or("", String::as_str);
+        let found = hs0148_of_another_location::diagnostic(name, span, symbol.kind, place, symbol.span);
+        self.report(found);
+        true
     }
 
     /// The name of the present location.

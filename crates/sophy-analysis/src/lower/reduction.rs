@@ -1,10 +1,11 @@
 //! `sum(i in 1..n where c : e)`: written out, since the bounds are known before a run.
 
 use super::expression::{LARGEST, Reader};
-use super::scope::SymbolKind;
+use super::scope::{Symbol, SymbolKind, SymbolValue};
 use super::typed::{Shape, Typed, Varies};
 use crate::checks::{
-    hs0201_unknown_function, hs0209_units, hs0210_wrong_kind, hs0211_shape, hs0216_reduction_of_nothing,
+    hs0117_hidden_name, hs0201_unknown_function, hs0209_units, hs0210_wrong_kind, hs0211_shape,
+    hs0216_reduction_of_nothing,
 };
 use crate::units::Measured;
 use sophy_diagnostics::Span;
@@ -113,7 +114,24 @@ impl Reader<'_, '_, '_> {
         let to = binder.to.as_ref().and_then(|e| self.known_integer(e, "the last value of a range"));
         let (at, range) = (self.span(binder.name_range.clone()), self.span(binder.range.clone()));
         let mut complete = Some(());
-        let (from, to) = (from?, to?);
+        let symbols = &mut self.lowering.symbols;
+        if let Some(hidden) = symbols.get(&binder.name)
+            && self.lowering.findings.binders.insert(at)
+        {
+            let what = hidden.kind.with_article();
+            let found = hs0117_hidden_name::declared(&binder.name, at, what, hidden.span);
+            self.report(found);
+        }
+        let (Some(from), Some(to)) = (from, to) else {
+            // Other mistakes of the body are looked for all the same.
+            let symbols = &mut self.lowering.symbols;
+            let mark = symbols.enter();
+            let unknown = Symbol { kind: SymbolKind::LoopVariable, span: at, value: SymbolValue::Broken };
+            symbols.bind_symbol(&binder.name, unknown);
+            self.each(reduction, others, values);
+            self.lowering.symbols.leave(mark);
+            return None;
+        };
         if to.saturating_sub(from) > LARGEST as i64 {
             self.too_large(range, None);
             return None;

@@ -5,7 +5,7 @@ use crate::predefined::{Predefined, QUANTITIES};
 use crate::units::Measured;
 use sophy_diagnostics::Span;
 use sophy_ir::{Quantity, VariableId};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::rc::Rc;
 
 /// What kind of thing a name stands for.
@@ -118,6 +118,16 @@ pub(crate) struct VariableSymbol {
     pub(crate) known: Option<Rc<[f64]>>,
 }
 
+/// In the place of the variables of a name that is declared further on.
+const COMING: VariableId = VariableId(u32::MAX);
+
+impl VariableSymbol {
+    /// Whether the name is declared further on: nothing is known of it yet.
+    pub(super) fn is_coming(&self) -> bool {
+        self.first == COMING
+    }
+}
+
 /// Numbers with what is known of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Numbers {
@@ -131,20 +141,27 @@ pub(crate) struct Numbers {
 /// Names that all components see: constants, records and functions of the files.
 pub(crate) type Globals<'a> = HashMap<String, Symbol<'a>>;
 
-/// What names mean at a place: those bound there, over those of the component, over those of the files.
+/// What names mean at a place: those bound there, over those of the location and the component, over those of the
+/// files.
 pub(crate) struct Symbols<'a> {
     globals: Rc<Globals<'a>>,
     component: HashMap<String, Symbol<'a>>,
     /// In order of entry.
     names: Vec<String>,
+    /// By location: what it declares for itself.
+    own: Vec<HashMap<String, Symbol<'a>>>,
+    /// Names that some location declares.
+    own_names: HashSet<String>,
+    /// The location we are in; only its own names are seen.
+    here: Option<usize>,
     /// Names that the component declares further on: they exist, but cannot be used yet.
     coming: HashMap<String, Symbol<'a>>,
     bound: Vec<(String, Symbol<'a>)>,
     /// In a function, names below are hidden, and so are those of the component but for constants.
     barrier: Option<usize>,
     used: BTreeSet<String>,
-    /// Names of the component by the first of their variables.
-    by_variable: BTreeMap<VariableId, String>,
+    /// Names of the component by the first of their variables, with the location that declares them.
+    by_variable: BTreeMap<VariableId, (String, Option<usize>)>,
     /// How many operations functions and reductions have been written out to; see [`super::Lowering`].
     pub(super) work: usize,
     /// How deep the place is nested, functions included.
@@ -170,6 +187,9 @@ impl<'a> Symbols<'a> {
             globals,
             component: HashMap::new(),
             names: Vec::new(),
+            own: Vec::new(),
+            own_names: HashSet::new(),
+            here: None,
             coming: HashMap::new(),
             bound: Vec::new(),
             barrier: None,
@@ -185,17 +205,46 @@ impl<'a> Symbols<'a> {
 
     /// Enters a name of the component; the first declaration of a name counts, and is returned if there is one.
     pub(crate) fn declare(&mut self, name: &str, symbol: Symbol<'a>) -> Option<&Symbol<'a>> {
-        if self.component.contains_key(name) {
-            return self.component.get(name);
+        let here = self.here;
+        if self.declared(name).is_none() && (here.is_some() || !self.own_names.contains(name)) {
+            if let Some(here) = here {
+                self.own_names.insert(name.to_owned());
+                self.own.resize_with(self.own.len().max(here + 1), HashMap::new);
+            }
+            self.redeclare(name, symbol);
+            return None;
         }
-        self.redeclare(name, symbol);
-        None
+        self.declared(name).or_else(|| self.elsewhere(name).first().map(|&(_, symbol)| symbol))
+    }
+
+    /// In which location we are; what is declared there is its own.
+    pub(crate) fn enter_location(&mut self, location: Option<usize>) {
+        self.here = location;
+    }
+
+    /// Whether we are in a location.
+    pub(crate) fn is_in_location(&self) -> bool {
+        self.here.is_some()
+    }
+
+    /// What a location declares for itself by a name.
+    pub(crate) fn of_location(&self, location: usize, name: &str) -> Option<&Symbol<'a>> {
+        self.own.get(location)?.get(name)
+    }
+
+    /// Locations that declare a name for themselves, with what it is there.
+    pub(crate) fn elsewhere(&self, name: &str) -> Vec<(usize, &Symbol<'a>)> {
+        if !self.own_names.contains(name) {
+            return Vec::new();
+        }
+        let scopes = self.own.iter().enumerate();
+        scopes.filter_map(|(location, own)| Some((location, own.get(name)?))).collect()
     }
 
     /// Says that the component will declare a name; what reads it before has its value too early.
     pub(crate) fn foreshadow(&mut self, name: &str, kind: SymbolKind, span: Span) {
         let variable = VariableSymbol {
-            first: VariableId(u32::MAX),
+            first: COMING,
             shape: Shape::Scalar,
             quantity: Quantity::Real,
             measured: Measured::Unchecked,
@@ -220,9 +269,11 @@ impl<'a> Symbols<'a> {
     /// Replaces what a name of the component stands for, once more is known of it.
     pub(crate) fn redeclare(&mut self, name: &str, symbol: Symbol<'a>) {
         if let SymbolValue::Variable(variable) = &symbol.value {
-            self.by_variable.insert(variable.first, name.to_owned());
+            self.by_variable.insert(variable.first, (name.to_owned(), self.here));
         }
-        if self.component.insert(name.to_owned(), symbol).is_none() {
+        if let Some(own) = self.here.and_then(|here| self.own.get_mut(here)) {
+            own.insert(name.to_owned(), symbol);
+        } else if self.component.insert(name.to_owned(), symbol).is_none() {
             self.names.push(name.to_owned());
         }
     }
@@ -269,7 +320,7 @@ impl<'a> Symbols<'a> {
         if let Some((_, symbol)) = visible.iter().rev().find(|(bound, _)| bound == name) {
             return Some(symbol);
         }
-        let own = self.component.get(name).or_else(|| self.coming.get(name));
+        let own = self.declared(name).or_else(|| self.coming.get(name));
         own.filter(|symbol| self.sees(symbol)).or_else(|| self.globals.get(name))
     }
 
@@ -291,10 +342,22 @@ impl<'a> Symbols<'a> {
 
     /// The declaration a variable belongs to, and which element of it the variable is.
     fn declaration(&self, id: VariableId) -> Option<(&str, &VariableSymbol, usize)> {
-        let (first, name) = self.by_variable.range(..=id).next_back()?;
-        let SymbolValue::Variable(variable) = &self.component.get(name)?.value else { return None };
+        let (first, (name, location)) = self.by_variable.range(..=id).next_back()?;
+        let SymbolValue::Variable(variable) = &self.in_scope(name, *location)?.value else { return None };
         let element = (id.0 - first.0) as usize;
         (element < variable.shape.len()).then_some((name.as_str(), variable, element))
+    }
+
+    fn in_scope(&self, name: &str, location: Option<usize>) -> Option<&Symbol<'a>> {
+        match location {
+            Some(location) => self.of_location(location, name),
+            None => self.component.get(name),
+        }
+    }
+
+    /// The name that a variable is declared by, without indices.
+    pub(crate) fn declared_as(&self, id: VariableId) -> Option<&str> {
+        self.declaration(id).map(|(name, ..)| name)
     }
 
     /// The name and value of a parameter whose value is known.
@@ -314,18 +377,20 @@ impl<'a> Symbols<'a> {
 
     /// The declaration of a variable, for labels.
     pub(super) fn declared_at(&self, id: VariableId) -> Option<(&str, Span)> {
-        let (name, ..) = self.declaration(id)?;
-        Some((name, self.component.get(name)?.span))
+        self.declaration(id)?;
+        let (name, location) = self.by_variable.range(..=id).next_back()?.1;
+        Some((name, self.in_scope(name, *location)?.span))
     }
 
     /// What the component itself declares by a name, whatever is bound over it.
     pub(crate) fn declared(&self, name: &str) -> Option<&Symbol<'a>> {
-        self.component.get(name)
+        let own = self.here.and_then(|here| self.of_location(here, name));
+        own.or_else(|| self.component.get(name))
     }
 
     /// A name of the component that a function cannot see.
     pub(crate) fn hidden(&self, name: &str) -> Option<&Symbol<'a>> {
-        let symbol = self.component.get(name).or_else(|| self.coming.get(name));
+        let symbol = self.declared(name).or_else(|| self.coming.get(name));
         symbol.filter(|_| self.barrier.is_some())
     }
 
@@ -360,18 +425,34 @@ impl<'a> Symbols<'a> {
         names
     }
 
-    /// Names that are bound here, innermost first, then those of the component in written order, then those of
+    /// Names that are bound here, innermost first, then those of the location and of the component in written order, then those of
     /// the files, sorted.
     pub(crate) fn names(&self) -> Vec<(&str, &Symbol<'a>)> {
         let visible = &self.bound[self.barrier.unwrap_or(0).min(self.bound.len())..];
         let bound = visible.iter().rev().map(|(name, symbol)| (name.as_str(), symbol));
         let component = self.names.iter().filter_map(|name| Some((name.as_str(), self.component.get(name)?)));
         let component = component.filter(|(_, symbol)| self.sees(symbol));
+        let own = self.here.and_then(|here| self.own.get(here)).map(in_written_order).unwrap_or_default();
+        let own = own.into_iter().filter(|(_, symbol)| self.sees(symbol));
         let mut globals: Vec<(&str, &Symbol<'a>)> =
             self.globals.iter().map(|(name, symbol)| (name.as_str(), symbol)).collect();
         globals.sort_by_key(|(_, symbol)| (symbol.span.source, symbol.span.start));
-        bound.chain(component).chain(globals).collect()
+        bound.chain(own).chain(component).chain(globals).collect()
     }
+
+    /// What locations declare for themselves, with the locations.
+    pub(crate) fn of_locations(&self) -> Vec<(usize, &str, &Symbol<'a>)> {
+        let scopes = self.own.iter().enumerate();
+        let of =
+            |(location, own)| in_written_order(own).into_iter().map(move |(name, s)| (location, name, s));
+        scopes.flat_map(of).collect()
+    }
+}
+
+fn in_written_order<'s, 'a>(scope: &'s HashMap<String, Symbol<'a>>) -> Vec<(&'s str, &'s Symbol<'a>)> {
+    let mut symbols: Vec<_> = scope.iter().map(|(name, symbol)| (name.as_str(), symbol)).collect();
+    symbols.sort_by_key(|(_, symbol)| (symbol.span.source, symbol.span.start));
+    symbols
 }
 
 /// What an expression may use where it stands.

@@ -50,7 +50,9 @@ impl Reader<'_, '_, '_> {
                     self.lowering.symbols.look_up(&name);
                     self.entry(&name, record, &mut parts)?
                 }
-                SymbolValue::Variable(variable) if variable.varies <= self.lowering.place.most => {
+                SymbolValue::Variable(variable)
+                    if variable.varies <= self.lowering.place.most && !variable.is_coming() =>
+                {
                     self.lowering.symbols.look_up(&name);
                     Base::Variable(variable)
                 }
