@@ -214,6 +214,13 @@ impl<'a> Symbols<'a> {
             self.redeclare(name, symbol);
             return None;
         }
+        if let Some(here) = here.filter(|&here| self.of_location(here, name).is_none()) {
+            // In the location neither is meant for certain.
+            self.own.resize_with(self.own.len().max(here + 1), HashMap::new);
+            let broken = Symbol { value: SymbolValue::Broken, ..symbol };
+            self.own.get_mut(here).and_then(|own| own.insert(name.to_owned(), broken));
+            return self.component.get(name);
+        }
         self.declared(name).or_else(|| self.elsewhere(name).first().map(|&(_, symbol)| symbol))
     }
 
