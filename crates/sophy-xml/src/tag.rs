@@ -57,7 +57,7 @@ impl Parser<'_> {
             closed: false,
             meant: None,
         };
-        let mut complained = false;
+        let (mut complained, mut repeated) = (false, false);
         loop {
             let rest = self.rest();
             let blanks = rest.len() - rest.trim_start().len();
@@ -102,7 +102,7 @@ impl Parser<'_> {
                 complained = true;
             }
             let attribute = self.attribute(&element, &mut complained);
-            self.add_attribute(&mut element, attribute);
+            self.add_attribute(&mut element, attribute, &mut repeated);
         }
         let empty = element.closed;
         self.open(element, empty);
@@ -119,11 +119,14 @@ impl Parser<'_> {
         );
     }
 
-    fn add_attribute(&mut self, element: &mut Element, attribute: Attribute) {
+    /// Says once for each tag that an attribute stands twice.
+    fn add_attribute(&mut self, element: &mut Element, attribute: Attribute, repeated: &mut bool) {
         self.count_node();
         // One attribute is the most an element has: looking through them stays cheap by leaving out the rest.
         match element.attributes.iter().find(|other| other.name == attribute.name) {
+            Some(_) if *repeated => {}
             Some(first) => {
+                *repeated = true;
                 let message = format!("the attribute `{}` stands twice", attribute.name);
                 self.diagnostics.push(
                     Diagnostic::error(DUPLICATE_ATTRIBUTE, attribute.name_span, message)
