@@ -4,6 +4,7 @@ use crate::replace::{Existing, write};
 use crate::terminal::Terminal;
 use serde_json::json;
 use std::io::ErrorKind;
+use std::path::Path;
 
 /// Writes a template, named as asked for.
 pub(crate) fn new(arguments: &New, terminal: &Terminal) -> Exit {
@@ -20,9 +21,10 @@ pub(crate) fn new(arguments: &New, terminal: &Terminal) -> Exit {
     let existing = if *force { Existing::Replace } else { Existing::Keep };
     match write(path, text.as_bytes(), existing) {
         Ok(()) => {
+            let next = next(*kind, path);
             terminal.remark(
-                &format!("wrote {}", path.display()),
-                &json!({ "kind": "new", "output": path, "text": text }),
+                &format!("wrote {}\n{next}", path.display()),
+                &json!({ "kind": "new", "output": path, "text": text, "next": next }),
             );
             Exit::Done
         }
@@ -49,6 +51,23 @@ fn template(kind: Kind) -> &'static str {
         Kind::System => include_str!("../../templates/system.hsml"),
         Kind::Hybrid => include_str!("../../templates/hybrid.hsml"),
         Kind::Experiment => include_str!("../../templates/experiment.toml"),
+    }
+}
+
+/// What to do with the file now.
+fn next(kind: Kind, path: &Path) -> String {
+    let (file, picture) = (path.display(), path.with_extension("html"));
+    match kind {
+        Kind::Experiment => format!("next: `sophy run {file}`"),
+        Kind::Dtc => format!(
+            "next: `sophy check {file}`; this version checks discrete-time components, and does not run them yet"
+        ),
+        Kind::Lbc => {
+            format!("next: `sophy check {file}`; this version checks rules, and does not run them yet")
+        }
+        Kind::Ctc | Kind::Cc | Kind::System | Kind::Hybrid => {
+            format!("next: `sophy run {file} --plot {}`", picture.display())
+        }
     }
 }
 

@@ -23,13 +23,31 @@ fn every_template_is_laid_out_and_has_no_mistakes() {
 }
 
 #[test]
-fn templates_that_need_no_inputs_run() {
-    let folder = Folder::new("templates_run");
-    for kind in ["system", "hybrid"] {
+fn the_next_step_that_is_named_works() {
+    let folder = Folder::new("templates_next");
+    for kind in KINDS {
         let file = format!("{kind}.hsml");
-        folder.sophy(&["new", kind, "Thing", "-o", &file]).ends(0, &[]);
-        folder.sophy(&["run", &file, "--stop", "30", "--output", "thing.csv"]).ends(0, &["wrote thing.csv"]);
+        let new = folder.sophy(&["new", kind, "Thing", "-o", &file]);
+        if ["dtc", "lbc"].contains(&kind) {
+            new.ends(0, &[&format!("`sophy check {file}`"), "does not run"]);
+            folder.sophy(&["check", &file]).ends(0, &["no mistakes found"]);
+        } else {
+            let plot = format!("{kind}.html");
+            new.ends(0, &[&format!("`sophy run {file} --plot {plot}`")]);
+            folder.sophy(&["run", &file, "--plot", &plot]).ends(0, &[&format!("wrote {plot}")]);
+        }
     }
+    folder.sophy(&["new", "experiment", "ctc", "-o", "ctc.toml"]).ends(0, &["`sophy run ctc.toml`"]);
+    folder.sophy(&["run", "ctc.toml"]).ends(0, &["ctc.csv"]);
+}
+
+#[test]
+fn a_component_with_an_input_runs_alone_when_it_is_given() {
+    let folder = Folder::new("templates_alone");
+    folder.sophy(&["new", "ctc", "Tank", "-o", "tank.hsml"]).ends(0, &[]);
+    let alone = ["run", "tank.hsml", "--system", "Tank", "--input", "inflow=0.4"];
+    folder.sophy(&alone).ends(0, &[]);
+    folder.sophy(&alone[..4]).ends(1, &["--input inflow="]);
 }
 
 #[test]
