@@ -34,8 +34,8 @@
   };
 
   const shade = u => {
-    const band = data.bands[0];
-    if (data.bands.length !== 1) return;
+    const band = data.bands.find(band => band.behind);
+    if (!band) return;
     const { min, max } = u.scales.x;
     if (after(band.starts, max) - after(band.starts, min) > MOST_SHADES) return;
     spans(u, band, (location, from, to) => {
@@ -90,9 +90,12 @@
   // As many digits as tell neighbouring ticks apart.
   const tickLabels = (u, ticks, axis, space, step) => {
     const order = x => Math.floor(Math.log10(Math.abs(x)) + 1e-9);
-    const largest = Math.max(...ticks.map(Math.abs)), digits = order(largest) - order(step);
+    // The place of the last digit of the step: 0 for 5, -1 for 2.5, -2 for 0.25.
+    const [digits, power] = step.toExponential(5).split("e");
+    const place = Number(power) - digits.replace(/0+$/, "").length + 2;
+    const largest = Math.max(...ticks.map(Math.abs));
     const plain = largest === 0 || (largest < 1e7 && largest >= 1e-2);
-    const label = v => plain ? v.toFixed(Math.max(0, -order(step))) : v === 0 ? "0" : v.toExponential(Math.max(0, digits - order(largest) + order(v)));
+    const label = v => plain ? v.toFixed(Math.max(0, -place)) : v === 0 ? "0" : v.toExponential(Math.max(0, order(v) - place));
     // Late digits alone when all do not fit; the values under the curves are whole.
     const short = text => text.length > 8 ? "\u2026" + text.slice(-6) : text;
     return ticks.map(v => short(label(v).replace("e+", "e").replace(/-/g, "\u2212")));
@@ -148,8 +151,13 @@
     const paint = u => {
       u.ctx.save();
       u.ctx.font = 11 * ratio() + "px Roboto, Helvetica, Arial, sans-serif";
-      u.ctx.textAlign = "center";
       u.ctx.textBaseline = "middle";
+      u.ctx.textAlign = "right";
+      u.ctx.fillStyle = ink;
+      let name = band.name;
+      while (name.length > 3 && u.ctx.measureText(name).width > u.bbox.left - 10 * ratio()) name = "\u2026" + name.slice(2);
+      u.ctx.fillText(name, u.bbox.left - 7 * ratio(), u.bbox.top + u.bbox.height / 2);
+      u.ctx.textAlign = "center";
       spans(u, band, (location, from, to) => {
         u.ctx.fillStyle = band.colours[location];
         u.ctx.fillRect(from, u.bbox.top, to - from, u.bbox.height);

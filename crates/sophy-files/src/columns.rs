@@ -85,14 +85,11 @@ impl Cells {
         }
     }
 
-    /// Empty cells of a column that `description` may know: its location names keep their order.
+    /// Empty cells of a column that `description` may know: its names keep their order.
     pub(crate) fn labels(name: &str, description: &Description) -> Self {
         let mut labels = Labels::default();
-        for location in description
-            .columns
-            .iter()
-            .filter(|c| c.name == name && c.kind == CellKind::Location)
-            .flat_map(|c| &c.locations)
+        for location in
+            description.columns.iter().filter(|c| c.name == name && c.kind.is_label()).flat_map(|c| &c.names)
         {
             labels.intern(location);
         }
@@ -117,7 +114,6 @@ pub(crate) fn into_table(
         false if description.columns.is_empty() => Some(1).filter(|&i| columns.get(i).is_some_and(is_step)),
         false => None,
     };
-    let mut labels = Vec::new();
     for (i, column) in columns.into_iter().enumerate() {
         let unit = described(&column.name).and_then(|d| d.unit.clone());
         match column.cells {
@@ -131,12 +127,12 @@ pub(crate) fn into_table(
                 return Err(FileError::Missing { path: path.to_path_buf(), missing: "no time column" });
             }
             Cells::Label(cells) => {
-                labels.push(Column { name: column.name, unit, kind: ColumnKind::Label(cells.names) });
+                let kind = ColumnKind::Label(cells.names);
+                table.schema.columns.push(Column { name: column.name, unit, kind });
                 table.labels.push(cells.positions);
             }
         }
     }
-    table.schema.columns.extend(labels);
     table.schema.with_step = step.is_some();
     check_time(path, &table.time, |row| first_line + row as u64)?;
     Ok(table)
@@ -170,12 +166,13 @@ pub(crate) fn check_row(schema: &Schema, row: &Row<'_>) -> Result<(), RowMismatc
         let (reals, labels) = (row.reals.len(), row.labels.len());
         return Err(RowMismatch::Count { reals, labels, schema_reals, schema_labels });
     }
-    for (column, &position) in schema.columns[schema_reals..].iter().zip(row.labels) {
-        if let ColumnKind::Label(names) = &column.kind
-            && position as usize >= names.len()
-        {
-            let column = column.name.clone();
-            return Err(RowMismatch::Location { column, position, names: names.len() });
+    let labels = schema.columns.iter().filter_map(|column| match &column.kind {
+        ColumnKind::Label(names) => Some((&column.name, names.len())),
+        ColumnKind::Real => None,
+    });
+    for ((column, names), &position) in labels.zip(row.labels) {
+        if position as usize >= names {
+            return Err(RowMismatch::Label { column: column.clone(), position, names });
         }
     }
     Ok(())

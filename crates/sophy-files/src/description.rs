@@ -1,4 +1,4 @@
-//! What a table of bare cells does not say: units, kinds, location names, metadata. It is the content of
+//! What a table of bare cells does not say: units, kinds, names of locations, texts, metadata. It is the content of
 //! `FILE.meta.json` and of the key `sophy.columns` in Parquet.
 
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub(crate) struct ColumnDescription {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) unit: Option<String>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) locations: Vec<String>,
+    pub(crate) names: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,15 @@ pub(crate) enum CellKind {
     Step,
     Real,
     Location,
+    /// Texts, truth values among them.
+    Text,
+}
+
+impl CellKind {
+    /// Whether cells are texts in the file.
+    pub(crate) fn is_label(self) -> bool {
+        matches!(self, CellKind::Location | CellKind::Text)
+    }
 }
 
 /// `FILE.meta.json`.
@@ -50,20 +59,21 @@ impl Description {
             name: name.to_owned(),
             kind,
             unit: unit.map(str::to_owned),
-            locations: Vec::new(),
+            names: Vec::new(),
         };
         let mut columns = vec![plain("time", CellKind::Time, Some("s"))];
         if schema.with_step {
             columns.push(plain("step", CellKind::Step, None));
         }
         for column in &schema.columns {
-            let (kind, locations) = match &column.kind {
+            let (kind, names) = match &column.kind {
                 ColumnKind::Real => (CellKind::Real, Vec::new()),
-                ColumnKind::Label(names) => (CellKind::Location, names.clone()),
+                ColumnKind::Label(names) if column.is_location() => (CellKind::Location, names.clone()),
+                ColumnKind::Label(names) => (CellKind::Text, names.clone()),
             };
             columns.push(ColumnDescription {
                 kind,
-                locations,
+                names,
                 ..plain(&column.name, kind, column.unit.as_deref())
             });
         }

@@ -146,9 +146,9 @@ impl FileError {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum RowMismatch {
     #[error(
-        "a row of {reals} numbers and {labels} locations; the schema has {schema_reals} and {schema_labels}"
+        "a row of {reals} numbers and {labels} labels; the schema has {schema_reals} and {schema_labels}"
     )]
     Count { reals: usize, labels: usize, schema_reals: usize, schema_labels: usize },
-    #[error("location {position} of column {column}, which has {names} names")]
-    Location { column: String, position: u32, names: usize },
+    #[error("label {position} of column {column}, which has {names} names")]
+    Label { column: String, position: u32, names: usize },
 }

@@ -15,7 +15,7 @@ use crate::path::extension;
 /// | path | format | killed |
 /// | --- | --- | --- |
 /// | `-` | CSV on stdout, without metadata | |
-/// | `.csv` | CSV, and `FILE.meta.json` with the metadata, units and location names | whole up to the last flush |
+/// | `.csv` | CSV, and `FILE.meta.json` with the metadata, units and names | whole up to the last flush |
 /// | `.arrow` | Arrow IPC stream | whole up to the last flush |
 /// | `.parquet` | Parquet, made at the end from `FILE.parquet.journal`, an Arrow IPC stream | the journal is whole up to the last flush |
 ///
@@ -40,7 +40,7 @@ pub fn open_sink(path: &Path, schema: &Schema, metadata: &Metadata) -> Result<Bo
 /// Reads a result file of any format, also one whose run was killed: a torn last line or message is left out.
 ///
 /// If `FILE.parquet` is missing but its journal is there, the journal is read.
-/// A column of text is a location column; the first column named `time`, or else the first of all, is the time.
+/// A column of text holds locations or other texts; the first column named `time`, or else the first of all, is the time.
 /// A CSV line counts only with its line end.
 ///
 /// # Errors

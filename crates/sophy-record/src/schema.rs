@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 /// every micro-step is recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schema {
-    /// In the order of the file. All real columns come before all label columns.
+    /// In the order of the file. The n-th real column has the n-th of [`Row::reals`], the n-th label column the n-th
+    /// of [`Row::labels`].
     pub columns: Vec<Column>,
     /// Whether rows carry the micro-step number.
     pub with_step: bool,
@@ -38,8 +39,16 @@ pub struct Column {
 pub enum ColumnKind {
     /// Numbers.
     Real,
-    /// A location: the cell is a position in these names.
+    /// A location, a text or a truth value: the cell is a position in these names.
     Label(Vec<String>),
+}
+
+impl Column {
+    /// Whether it shows the location of a component.
+    pub fn is_location(&self) -> bool {
+        let last = self.name.rsplit('.').next();
+        matches!(self.kind, ColumnKind::Label(_)) && last == Some("location")
+    }
 }
 
 /// Where a result comes from; written into every result file.

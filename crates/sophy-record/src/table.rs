@@ -36,19 +36,18 @@ impl Table {
 
     /// The values of a real column by its name.
     pub fn real(&self, name: &str) -> Option<&[f64]> {
-        let position =
-            self.schema.columns.iter().position(|c| c.name == name && c.kind == ColumnKind::Real)?;
-        self.reals.get(position).map(Vec::as_slice)
+        let mut reals = self.schema.columns.iter().filter(|c| c.kind == ColumnKind::Real);
+        self.reals.get(reals.position(|c| c.name == name)?).map(Vec::as_slice)
     }
 
     /// The positions and the names of a label column by its name.
     pub fn label(&self, name: &str) -> Option<(&[u32], &[String])> {
-        let reals = self.schema.reals();
-        let position = self.schema.columns.iter().position(|c| c.name == name)?;
-        match &self.schema.columns[position].kind {
-            ColumnKind::Label(names) => Some((self.labels.get(position - reals)?, names)),
+        let labels = self.schema.columns.iter().filter_map(|column| match &column.kind {
+            ColumnKind::Label(names) => Some((&column.name, names)),
             ColumnKind::Real => None,
-        }
+        });
+        let (position, (_, names)) = labels.enumerate().find(|(_, (label, _))| *label == name)?;
+        Some((self.labels.get(position)?, names))
     }
 }
 

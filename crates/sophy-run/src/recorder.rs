@@ -6,6 +6,7 @@ use crate::grid::Grid;
 use crate::run::Run;
 use rustc_hash::FxHashSet;
 use sophy_field::{LocationIndex, Record, SourceIndex, WatchIndex};
+use sophy_ir::{Quantity, System};
 use sophy_record::{Column, ColumnKind, Row, Schema, Sink, SinkError, Trajectory};
 use sophy_segment::Sign;
 
@@ -17,7 +18,7 @@ use sophy_segment::Sign;
 pub struct Recorder {
     schema: Schema,
     reals: Vec<Real>,
-    labels: Vec<usize>,
+    labels: Vec<Label>,
     /// Present segment of every source: start and coefficients.
     segments: Vec<(f64, [f64; 3])>,
     locations: Vec<LocationIndex>,
@@ -45,6 +46,15 @@ pub struct Recorder {
 enum Real {
     Source(SourceIndex),
     Output(usize),
+}
+
+/// What a label column shows.
+#[derive(Clone, Copy, Debug)]
+enum Label {
+    /// The location of an automaton.
+    Location(usize),
+    /// A truth value or the number of a text, at most `last`.
+    Value { value: Real, last: u32 },
 }
 
 impl Recorder {
@@ -81,44 +91,10 @@ impl Recorder {
             rows: 0,
         };
         let available = available(system, layout.states);
-        let mut errors = Vec::new();
-        let mut chosen = vec![false; available.len()];
-        match &experiment.record {
-            None => {
-                for (wanted, column) in chosen.iter_mut().zip(&available) {
-                    *wanted = column.by_default;
-                }
-                // A model without outputs shows its states.
-                if !available.iter().any(|c| matches!(c.real, Some(Real::Output(_)))) {
-                    for (wanted, column) in chosen.iter_mut().zip(&available) {
-                        *wanted |= column.is_state;
-                    }
-                }
-            }
-            Some(patterns) => {
-                for pattern in patterns {
-                    let mut any = false;
-                    for (wanted, column) in chosen.iter_mut().zip(&available) {
-                        if matches(pattern, &column.name) {
-                            *wanted = true;
-                            any = true;
-                        }
-                    }
-                    if !any {
-                        let known = names(&available, |c| &c.name);
-                        errors.push(unknown("record", "variable", pattern, &known));
-                    }
-                }
-            }
-        }
-        if !errors.is_empty() {
-            return Err(errors);
-        }
-        let wanted = available.iter().zip(&chosen).filter(|(_, chosen)| **chosen);
-        for (column, _) in wanted {
-            match column.real {
-                Some(real) => recorder.reals.push(real),
-                None => recorder.labels.push(column.automaton),
+        for column in chosen(&available, experiment.record.as_deref())? {
+            match column.shown {
+                Shown::Real(real) => recorder.reals.push(real),
+                Shown::Label(label) => recorder.labels.push(label),
             }
             recorder.schema.columns.push(Column {
                 name: column.name.clone(),
@@ -275,23 +251,20 @@ impl Recorder {
         step: u32,
         sinks: &mut [&mut dyn Sink],
     ) -> Result<(), SinkError> {
-        let e = &compiled.equations;
         self.values.clear();
-        for &real in &self.reals {
-            let value = match real {
-                Real::Source(source) => at(self.segments[source.position()], time),
-                Real::Output(index) => {
-                    let formula = e.selected(e.outputs[index], &self.locations);
-                    for &source in e.sources(&formula.sources) {
-                        self.memory[e.layout.series_of(source)] = at(self.segments[source.position()], time);
-                    }
-                    e.formula(formula, &self.locations, &mut self.memory, 1)[0]
-                }
-            };
+        for position in 0..self.reals.len() {
+            let value = self.value(compiled, self.reals[position], time);
             self.values.push(value);
         }
         self.label_values.clear();
-        self.label_values.extend(self.labels.iter().map(|&automaton| self.locations[automaton].0));
+        for position in 0..self.labels.len() {
+            let label = match self.labels[position] {
+                Label::Location(automaton) => self.locations[automaton].0,
+                // Where nothing is known (NaN) the first name stands, as 0 does.
+                Label::Value { value, last } => ((self.value(compiled, value, time) + 0.5) as u32).min(last),
+            };
+            self.label_values.push(label);
+        }
         let row = Row { time, step, reals: &self.values, labels: &self.label_values };
         for sink in sinks.iter_mut() {
             sink.row(row)?;
@@ -299,6 +272,20 @@ impl Recorder {
         self.last_row = time;
         self.rows += 1;
         Ok(())
+    }
+
+    fn value(&mut self, compiled: &sophy_codegen::Compiled, real: Real, time: f64) -> f64 {
+        let e = &compiled.equations;
+        match real {
+            Real::Source(source) => at(self.segments[source.position()], time),
+            Real::Output(index) => {
+                let formula = e.selected(e.outputs[index], &self.locations);
+                for &source in e.sources(&formula.sources) {
+                    self.memory[e.layout.series_of(source)] = at(self.segments[source.position()], time);
+                }
+                e.formula(formula, &self.locations, &mut self.memory, 1)[0]
+            }
+        }
     }
 }
 
@@ -312,37 +299,83 @@ struct Available {
     name: String,
     unit: Option<String>,
     kind: ColumnKind,
-    real: Option<Real>,
-    automaton: usize,
+    shown: Shown,
     by_default: bool,
     is_state: bool,
 }
 
+enum Shown {
+    Real(Real),
+    Label(Label),
+}
+
+/// The columns asked for, in the order in which the patterns ask for them; by default outputs and locations.
+fn chosen<'a>(
+    available: &'a [Available],
+    patterns: Option<&[String]>,
+) -> Result<Vec<&'a Available>, Vec<ExperimentError>> {
+    let Some(patterns) = patterns else {
+        // A model without outputs shows its states.
+        let no_outputs = !available.iter().any(Available::is_output);
+        let wanted = |column: &&Available| column.by_default || (no_outputs && column.is_state);
+        return Ok(available.iter().filter(wanted).collect());
+    };
+    let (mut columns, mut errors) = (Vec::new(), Vec::new());
+    let mut taken = vec![false; available.len()];
+    for pattern in patterns {
+        let mut any = false;
+        for (column, taken) in available.iter().zip(&mut taken) {
+            if matches(pattern, &column.name) {
+                any = true;
+                if !std::mem::replace(taken, true) {
+                    columns.push(column);
+                }
+            }
+        }
+        if !any {
+            errors.push(unknown("record", "variable", pattern, &names(available, |c| &c.name)));
+        }
+    }
+    if errors.is_empty() { Ok(columns) } else { Err(errors) }
+}
+
+impl Available {
+    fn is_output(&self) -> bool {
+        let value = match self.shown {
+            Shown::Real(value) | Shown::Label(Label::Value { value, .. }) => Some(value),
+            Shown::Label(Label::Location(_)) => None,
+        };
+        matches!(value, Some(Real::Output(_)))
+    }
+}
+
 /// Outputs, then states and inputs that are not outputs of the same name, then locations.
-fn available<'a>(system: &'a sophy_ir::System, states: u32) -> Vec<Available> {
+fn available<'a>(system: &'a System, states: u32) -> Vec<Available> {
     let mut columns: Vec<Available> = Vec::new();
     let mut taken: FxHashSet<&str> = FxHashSet::default();
-    let mut add = |name: &'a str, unit: &Option<String>, real: Real, by_default: bool, is_state: bool| {
+    let mut add = |name: &'a str, unit: &Option<String>, (kind, shown), by_default: bool, is_state: bool| {
         if taken.insert(name) {
             columns.push(Available {
                 name: name.to_owned(),
                 unit: unit.clone(),
-                kind: ColumnKind::Real,
-                real: Some(real),
-                automaton: 0,
+                kind,
+                shown,
                 by_default,
                 is_state,
             });
         }
     };
+    let shown = |quantity: Quantity, value: Real| shown(quantity, value, &system.texts);
     for (index, y) in system.outputs.iter().enumerate() {
-        add(&y.name, &y.unit, Real::Output(index), true, false);
+        add(&y.name, &y.unit, shown(y.quantity, Real::Output(index)), true, false);
     }
     for (index, x) in system.states.iter().enumerate() {
-        add(&x.name, &x.unit, Real::Source(SourceIndex(index as u32)), false, true);
+        let source = Real::Source(SourceIndex(index as u32));
+        add(&x.name, &x.unit, shown(x.quantity, source), false, true);
     }
     for (index, u) in system.inputs.iter().enumerate() {
-        add(&u.name, &u.unit, Real::Source(SourceIndex(states + index as u32)), false, false);
+        let source = Real::Source(SourceIndex(states + index as u32));
+        add(&u.name, &u.unit, shown(u.quantity, source), false, false);
     }
     for (index, automaton) in system.automata.iter().enumerate() {
         if automaton.role != sophy_ir::Role::Component {
@@ -356,11 +389,26 @@ fn available<'a>(system: &'a sophy_ir::System, states: u32) -> Vec<Available> {
             name,
             unit: None,
             kind: ColumnKind::Label(automaton.locations.iter().map(|l| l.name.clone()).collect()),
-            real: None,
-            automaton: index,
+            shown: Shown::Label(Label::Location(index)),
             by_default: automaton.locations.len() > 1,
             is_state: false,
         });
     }
     columns
+}
+
+/// A value as people read it: truth values and texts by their names.
+fn shown(quantity: Quantity, value: Real, texts: &[String]) -> (ColumnKind, Shown) {
+    let names = match quantity {
+        Quantity::Boolean => vec!["false".to_owned(), "true".to_owned()],
+        Quantity::Text => texts.to_vec(),
+        Quantity::Real | Quantity::Integer => Vec::new(),
+    };
+    match names.len().checked_sub(1) {
+        Some(last) => {
+            let label = Label::Value { value, last: u32::try_from(last).unwrap_or(u32::MAX) };
+            (ColumnKind::Label(names), Shown::Label(label))
+        }
+        None => (ColumnKind::Real, Shown::Real(value)),
+    }
 }

@@ -23,6 +23,8 @@ pub struct Finished {
     pub locations: Vec<(String, String)>,
     /// The files written, in the order asked for.
     pub files: Vec<PathBuf>,
+    /// What is to be said of variables that pictures have no room for.
+    pub not_drawn: Option<String>,
     /// What is to be said if transitions accumulated.
     pub zeno: Option<Diagnostic>,
 }
@@ -99,8 +101,9 @@ pub fn run(
     let finished = files.finish(&metadata::at_end(&run, &result));
     let report = result?;
     finished?;
-    files.plot(&setup.outputs)?;
+    let not_drawn = files.plot(&setup.outputs)?;
     Ok(Finished {
+        not_drawn,
         locations: locations(&run),
         files: setup.outputs.paths(),
         zeno: match &report.outcome {
@@ -160,10 +163,11 @@ impl Files {
         first
     }
 
-    fn plot(&self, outputs: &Outputs) -> Result<(), FileError> {
-        let Some(table) = &self.table else { return Ok(()) };
+    fn plot(&self, outputs: &Outputs) -> Result<Option<String>, FileError> {
+        let Some(table) = &self.table else { return Ok(None) };
         let options = PlotOptions { phase: outputs.phase.clone(), ..PlotOptions::default() };
-        outputs.plots.iter().try_for_each(|path| plot(path, table, &self.events, &options))
+        let drawn = outputs.plots.iter().map(|path| plot(path, table, &self.events, &options));
+        Ok(drawn.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().next())
     }
 }
 

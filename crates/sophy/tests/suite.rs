@@ -6,7 +6,8 @@
 //!   the message or of a way out. `%!^` is about the line above.
 //! - `%! root NAME` names the component that is meant, `%! root implied` asks for the only one.
 //! - `%! stop 2`, `%! quantum 1e-5`, `%! knob k = 3`, `%! input u = 1`: the run.
-//! - `%! final x = 1.5 +- 1e-6`: a value at the end. `%! final location = Off`: a location.
+//! - `%! final x = 1.5 +- 1e-6`: a value at the end, of a truth value 0 or 1. `%! final location = Off`: a location, a
+//!   text, or `true` and `false`.
 //! - `%! event 0.5 NAME +- 1e-6`: a transition, `component.transition` in a composition; if one is given, all are,
 //!   in order. `%! no events` where there are none.
 
@@ -151,10 +152,12 @@ fn run(path: &Path) -> Result<(), String> {
         Err(error) => return wrong(error.to_string()),
     };
     for (name, value, tolerance) in &expected.finals {
-        let Some(values) = simulation.table.real(name) else {
+        let real = simulation.table.real(name).map(|values| values.last().copied());
+        let label = || simulation.table.label(name).map(|(labels, _)| labels.last().map(|&l| f64::from(l)));
+        let Some(last) = real.or_else(label) else {
             return wrong(format!("no `{name}` in the result"));
         };
-        let last = values.last().copied().unwrap_or(f64::NAN);
+        let last = last.unwrap_or(f64::NAN);
         let error = (last - value).abs();
         if error.is_nan() || error > *tolerance {
             return wrong(format!("{name} is {last:.17} at the end, not {value} +- {tolerance}"));

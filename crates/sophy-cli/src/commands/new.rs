@@ -65,9 +65,11 @@ fn next(kind: Kind, path: &Path) -> String {
         Kind::Lbc => {
             format!("next: `sophy check {file}`; this version checks rules, and does not run them yet")
         }
-        Kind::Ctc | Kind::Cc | Kind::System | Kind::Hybrid => {
+        Kind::Ctc | Kind::Cc | Kind::Hybrid => {
             format!("next: `sophy run {file} --plot {}`", picture.display())
         }
+        // A room takes its time.
+        Kind::System => format!("next: `sophy run {file} --stop 1000 --plot {}`", picture.display()),
     }
 }
 

@@ -15,10 +15,13 @@ pub(crate) fn plot(arguments: &Plot, terminal: &Terminal) -> Exit {
     for result in &arguments.results {
         let picture = arguments.output.clone().unwrap_or_else(|| beside(result));
         match draw(arguments, result, &picture) {
-            Ok(()) => terminal.remark(
-                &format!("wrote {}", picture.display()),
-                &json!({ "kind": "plot", "result": result, "output": picture }),
-            ),
+            Ok(note) => {
+                let said = note.as_ref().map(|note| format!("; {note}; `--variables NAME,…` chooses"));
+                terminal.remark(
+                    &format!("wrote {}{}", picture.display(), said.unwrap_or_default()),
+                    &json!({ "kind": "plot", "result": result, "output": picture, "not_drawn": note }),
+                );
+            }
             Err(error) => {
                 terminal.error(&error.to_string(), None);
                 return Exit::from(&error);
@@ -28,7 +31,7 @@ pub(crate) fn plot(arguments: &Plot, terminal: &Terminal) -> Exit {
     Exit::Done
 }
 
-fn draw(arguments: &Plot, result: &Path, picture: &Path) -> Result<(), FileError> {
+fn draw(arguments: &Plot, result: &Path, picture: &Path) -> Result<Option<String>, FileError> {
     let table = sophy::read_table(result)?;
     let events = arguments.events.as_deref().map(sophy::read_events).transpose()?;
     let options = PlotOptions {

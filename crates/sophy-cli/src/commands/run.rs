@@ -98,6 +98,9 @@ fn summary(model: &Model, start: f64, finished: &Finished) -> String {
     } else {
         text.push_str(&format!("\n  wrote {}", files.join(", ")));
     }
+    if let Some(note) = &finished.not_drawn {
+        text.push_str(&format!("\n  in the picture {note}; `--record NAME,…` chooses"));
+    }
     text
 }
 
@@ -147,6 +150,7 @@ fn answer(model: &Model, start: f64, finished: &Finished, backend: &str) -> Valu
         "wall_time_s": report.elapsed.as_secs_f64(),
         "real_time_factor": factor(start, finished),
         "files": finished.files,
+        "not_drawn": finished.not_drawn,
         "statistics": {
             "steps": engine.steps,
             "rates": engine.rates,

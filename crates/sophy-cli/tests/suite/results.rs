@@ -161,3 +161,76 @@ fn a_run_that_fails_leaves_complete_files_and_says_why() {
     assert!(folder.read("falls.csv.meta.json").contains("failed: "));
     assert!(folder.read("falls.csv").lines().count() > 3);
 }
+
+/// Truth values and texts beside numbers.
+const VALVE: &str = r#"
+CTC Valve is
+interface
+  output(level, signal, "m");
+  output(full, boolean);
+end interface;
+body
+  declarations
+    state level := 0 "m";
+    mode stage in {"filling", "resting"} := "filling";
+    flag top;
+  end declarations;
+  dynamics
+    der(level) = if stage = "filling" then 1 else 0;
+    top = level - 1;
+  end dynamics;
+  output
+    full = level > 0.5;
+  end output;
+  event(top)
+    negative-to-positive
+      stage := "resting";
+    end negative-to-positive;
+  end event;
+end body;
+"#;
+
+#[test]
+fn texts_and_truth_values_are_recorded_as_they_are_written() {
+    let folder = Folder::new("texts");
+    folder.write("valve.hsml", VALVE);
+    let answer = folder.sophy(&["run", "valve.hsml", "--stop", "2", "-o", "-"]);
+    let lines: Vec<&str> = answer.ends(0, &[]).out.lines().collect();
+    assert_eq!((lines[0], lines[1]), ("time,level,full", "0,0,false"));
+    assert!(lines.last().expect("rows").ends_with(",true"), "{lines:?}");
+
+    // Columns come in the order in which they are asked for.
+    let recorded = "full,stage,level,full,location";
+    let files = ["a.csv", "a.arrow", "a.parquet"].map(|file| ["-o", file]).concat();
+    let run =
+        [&["run", "valve.hsml", "--stop", "2", "--record", recorded, "--plot", "a.svg"][..], &files].concat();
+    folder.sophy(&run).ends(0, &["wrote a.csv"]);
+    let csv = folder.read("a.csv");
+    assert!(csv.starts_with("time,full,stage,level,location\n0,false,filling,0,"), "{csv}");
+    assert!(csv.lines().last().expect("rows").starts_with("2,true,resting,"), "{csv}");
+    for format in ["arrow", "parquet"] {
+        folder.sophy(&["convert", &format!("a.{format}"), "b.csv"]).ends(0, &["wrote b.csv"]);
+        assert_eq!(csv, folder.read("b.csv"), "{format}");
+    }
+    let svg = folder.read("a.svg");
+    for text in ["filling", "resting", "false", "true", "full", "stage", "level (m)"] {
+        assert!(svg.contains(&format!(">{text}</text>")), "{text}\n{svg}");
+    }
+}
+
+#[test]
+fn a_picture_says_what_it_has_no_room_for() {
+    let folder = Folder::new("no_room");
+    folder.write(
+        "many.hsml",
+        "CTC C is interface output(y, signal, \"m\"); end interface; body declarations state y := 1; end \
+         declarations; dynamics der(y) = -rate*y; end dynamics; assignments rate : 1; end assignments; end body;\n\
+         SYSTEM Many is body components c : C[20]; end components; end body;",
+    );
+    let note = "not shown: 8 of 20 variables, c[13].y … c[20].y";
+    let run = ["run", "many.hsml", "--stop", "1", "--record", "*.y", "--plot", "a.svg", "-o", "a.csv"];
+    folder.sophy(&run).ends(0, &[note, "--record"]);
+    assert!(folder.read("a.svg").contains(note));
+    folder.sophy(&["plot", "a.csv", "-o", "b.html"]).ends(0, &[note, "--variables"]);
+    assert!(folder.read("b.html").contains(&note[1..]));
+}

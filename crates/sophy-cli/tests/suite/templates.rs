@@ -33,8 +33,10 @@ fn the_next_step_that_is_named_works() {
             folder.sophy(&["check", &file]).ends(0, &["no mistakes found"]);
         } else {
             let plot = format!("{kind}.html");
-            new.ends(0, &[&format!("`sophy run {file} --plot {plot}`")]);
-            folder.sophy(&["run", &file, "--plot", &plot]).ends(0, &[&format!("wrote {plot}")]);
+            let stop = if kind == "system" { &["--stop", "1000"][..] } else { &[] };
+            let run = [&["run", &file], stop, &["--plot", &plot]].concat();
+            new.ends(0, &[&format!("`sophy {}`", run.join(" "))]);
+            folder.sophy(&run).ends(0, &[&format!("wrote {plot}")]);
         }
     }
     folder.sophy(&["new", "experiment", "ctc", "-o", "ctc.toml"]).ends(0, &["`sophy run ctc.toml`"]);

@@ -32,7 +32,7 @@ pub(super) fn arrow_schema(schema: &Schema, metadata: &Metadata) -> SchemaRef {
     Arc::new(ArrowSchema::new_with_metadata(fields, metadata))
 }
 
-/// The location names of each label column. Made once: a stream repeats a dictionary only if it changed.
+/// The names of each label column. Made once: a stream repeats a dictionary only if it changed.
 pub(super) fn dictionaries(schema: &Schema) -> Vec<ArrayRef> {
     let names = schema.columns.iter().filter_map(|column| match &column.kind {
         ColumnKind::Label(names) => Some(Arc::new(StringArray::from_iter_values(names)) as ArrayRef),
@@ -52,10 +52,17 @@ pub(super) fn take_batch(
     if table.schema.with_step {
         arrays.push(Arc::new(UInt32Array::from(std::mem::take(&mut table.step))));
     }
-    arrays.extend(table.reals.iter_mut().map(real));
-    for (positions, names) in table.labels.iter_mut().zip(dictionaries) {
-        let keys = UInt32Array::from(std::mem::take(positions));
-        arrays.push(Arc::new(DictionaryArray::<UInt32Type>::try_new(keys, names.clone())?));
+    let mut reals = table.reals.iter_mut().map(real);
+    let mut labels = table.labels.iter_mut().zip(dictionaries);
+    for column in &table.schema.columns {
+        match column.kind {
+            ColumnKind::Real => arrays.extend(reals.next()),
+            ColumnKind::Label(_) => {
+                let Some((positions, names)) = labels.next() else { continue };
+                let keys = UInt32Array::from(std::mem::take(positions));
+                arrays.push(Arc::new(DictionaryArray::<UInt32Type>::try_new(keys, names.clone())?));
+            }
+        }
     }
     RecordBatch::try_new(schema.clone(), arrays)
 }

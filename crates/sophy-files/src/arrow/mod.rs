@@ -1,4 +1,4 @@
-//! Results as an Arrow IPC stream: `time` and variables as float64, `step` as uint32, locations as
+//! Results as an Arrow IPC stream: `time` and variables as float64, `step` as uint32, locations and texts as
 //! dictionary<uint32, utf8>. Units are field metadata (`unit`), run metadata is schema metadata.
 
 mod batch;

@@ -58,7 +58,7 @@ fn collect(
             name: field.name().clone(),
             kind: if is_step { CellKind::Step } else { CellKind::Real },
             unit: field.metadata().get("unit").cloned(),
-            locations: Vec::new(),
+            names: Vec::new(),
         });
     }
     for batch in batches {

@@ -34,7 +34,7 @@ impl ArrowSink {
         let (schema, dictionaries) = (arrow_schema(schema, metadata), dictionaries(schema));
         let started = StreamWriter::try_new(file, &schema).and_then(|stream| {
             let mut sink = ArrowSink { path: path.to_path_buf(), stream, schema, dictionaries, pending };
-            // An empty first message carries the location names, so that they stand whatever happens.
+            // An empty first message carries the names of labels, so that they stand whatever happens.
             sink.message()?;
             sink.stream.flush()?;
             Ok(sink)

@@ -5,7 +5,7 @@ use sophy_record::Table;
 
 use crate::FileError;
 use crate::columns::{Cells, FileColumn, into_table};
-use crate::description::{CellKind, Description};
+use crate::description::Description;
 
 /// Reads a CSV result; a last line without its line end was torn by a kill and is left out.
 pub(crate) fn read_csv(path: &Path) -> Result<Table, FileError> {
@@ -54,7 +54,7 @@ fn start_columns(
     description: &Description,
 ) -> Vec<FileColumn> {
     let is_label = |i: usize, name: &str| match description.columns.iter().find(|c| c.name == name) {
-        Some(column) => column.kind == CellKind::Location,
+        Some(column) => column.kind.is_label(),
         None => first.is_some_and(|cells| number(&cells[i]).is_none()),
     };
     let cells = |(i, name): (usize, &str)| {

@@ -60,23 +60,21 @@ impl CsvSink {
         self.lines.flush()
     }
 
-    fn number(&mut self, value: f64) -> csv::Result<()> {
-        self.cell.clear();
-        push_number(&mut self.cell, value);
-        self.lines.write_field(&self.cell)
-    }
-
     fn line(&mut self, row: Row<'_>) -> csv::Result<()> {
-        self.number(row.time)?;
+        number(&mut self.lines, &mut self.cell, row.time)?;
         if self.schema.with_step {
             self.lines.write_field(row.step.to_string())?;
         }
-        for &value in row.reals {
-            self.number(value)?;
-        }
-        for (column, &position) in self.schema.columns[row.reals.len()..].iter().zip(row.labels) {
-            if let ColumnKind::Label(names) = &column.kind {
-                self.lines.write_field(&names[position as usize])?;
+        let (mut reals, mut labels) = (row.reals.iter(), row.labels.iter());
+        for column in &self.schema.columns {
+            match &column.kind {
+                ColumnKind::Real => {
+                    number(&mut self.lines, &mut self.cell, *reals.next().unwrap_or(&f64::NAN))?;
+                }
+                ColumnKind::Label(names) => {
+                    let name = labels.next().and_then(|&position| names.get(position as usize));
+                    self.lines.write_field(name.map_or("", String::as_str))?;
+                }
             }
         }
         self.lines.write_record(None::<&[u8]>)
@@ -89,6 +87,12 @@ impl CsvSink {
     fn failed(&self, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> SinkError {
         SinkError { sink: self.name().display().to_string(), source: source.into() }
     }
+}
+
+fn number(lines: &mut csv::Writer<Box<dyn Write + Send>>, cell: &mut String, value: f64) -> csv::Result<()> {
+    cell.clear();
+    push_number(cell, value);
+    lines.write_field(&*cell)
 }
 
 impl Sink for CsvSink {

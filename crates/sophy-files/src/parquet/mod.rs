@@ -1,6 +1,6 @@
 //! Results as Parquet, through Parquet's own column writer: `time` and variables are required doubles, `step`
-//! an unsigned 32-bit integer, locations strings. Run metadata are key-value metadata; the key `sophy.columns`
-//! holds units and location names as JSON.
+//! an unsigned 32-bit integer, locations and texts strings. Run metadata are key-value metadata; the key `sophy.columns`
+//! holds units and names as JSON.
 
 mod read;
 mod write;

@@ -107,7 +107,7 @@ fn start<W: Write + Send>(out: W, description: &Description) -> ParquetResult<Se
             CellKind::Step => {
                 (Physical::INT32, Some(LogicalType::Integer(IntType { bit_width: 32, is_signed: false })))
             }
-            CellKind::Location => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+            CellKind::Location | CellKind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
         let field = Type::primitive_type_builder(&column.name, physical)
             .with_repetition(Repetition::REQUIRED)

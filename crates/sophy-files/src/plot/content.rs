@@ -1,4 +1,4 @@
-//! What a picture shows: which variables share a panel, the bands of locations, the marks of transitions.
+//! What a picture shows: which variables share a panel, the bands of locations and texts, the marks of transitions.
 
 use std::collections::BTreeSet;
 
@@ -6,13 +6,14 @@ use sophy_record::{Column, ColumnKind, EventRecord, Table};
 
 use super::PlotOptions;
 use super::axis::{extent, range};
+use super::palette;
 use crate::FileError;
 
 /// More panels than this no page holds.
 const MOST_PANELS: usize = 6;
 /// More curves than this no panel keeps apart.
 const MOST_CURVES: usize = 12;
-/// More strips of locations than this no page holds.
+/// More strips than this no page holds.
 const MOST_BANDS: usize = 8;
 
 pub(super) struct Content<'a> {
@@ -38,11 +39,12 @@ pub(super) struct Curve<'a> {
     pub(super) values: &'a [f64],
 }
 
-/// The locations of one automaton over time.
+/// The locations of one automaton over time, or a variable whose values are texts or truth values.
 pub(super) struct Band<'a> {
     pub(super) name: &'a str,
+    pub(super) is_location: bool,
     pub(super) names: &'a [String],
-    /// Start time and location; each lasts until the next.
+    /// Start time and position in the names; each lasts until the next.
     pub(super) spans: Vec<(f64, u32)>,
 }
 
@@ -58,7 +60,8 @@ impl<'a> Content<'a> {
 
         let mut bands: Vec<Band<'a>> = chosen.iter().filter_map(|column| band(table, column)).collect();
         if bands.is_empty() {
-            bands = table.schema.columns.iter().filter_map(|column| band(table, column)).collect();
+            let locations = table.schema.columns.iter().filter(|column| column.is_location());
+            bands = locations.filter_map(|column| band(table, column)).collect();
         }
         left_out.extend(bands.iter().skip(MOST_BANDS).map(|band| band.name));
         bands.truncate(MOST_BANDS);
@@ -66,7 +69,8 @@ impl<'a> Content<'a> {
         let mut marks: Vec<f64> = events.iter().map(|event| event.time).collect();
         if marks.is_empty() {
             // Without a log the changes of location tell where transitions were.
-            marks = bands.iter().flat_map(|band| band.spans.iter().skip(1).map(|span| span.0)).collect();
+            let locations = bands.iter().filter(|band| band.is_location);
+            marks = locations.flat_map(|band| band.spans.iter().skip(1).map(|span| span.0)).collect();
         }
         marks.sort_by(f64::total_cmp);
         marks.dedup();
@@ -78,6 +82,36 @@ impl<'a> Content<'a> {
             _ => (0.0, 1.0),
         };
         Ok(Content { time: &table.time, time_range, panels, bands, marks, left_out })
+    }
+
+    /// The locations, if they are those of a single automaton.
+    pub(super) fn automaton(&self) -> Option<&Band<'a>> {
+        let mut locations = self.bands.iter().filter(|band| band.is_location);
+        locations.next().filter(|_| locations.next().is_none())
+    }
+
+    /// What is to be said of the variables that found no room.
+    pub(super) fn note(&self) -> Option<String> {
+        match self.left_out.as_slice() {
+            [] => None,
+            [.., last] if self.left_out.len() > 4 => {
+                let shown: usize = self.panels.iter().map(|panel| panel.curves.len()).sum();
+                let (left, all) = (self.left_out.len(), self.left_out.len() + shown + self.bands.len());
+                Some(format!("not shown: {left} of {all} variables, {} … {last}", self.left_out[0]))
+            }
+            few => Some(format!("not shown: {}", few.join(", "))),
+        }
+    }
+}
+
+impl Band<'_> {
+    /// The colour of a position in the names.
+    pub(super) fn colour(&self, position: u32) -> String {
+        match self.names.get(position as usize).map(String::as_str) {
+            Some("false") => palette::FALSE.to_owned(),
+            Some("true") => palette::TRUE.to_owned(),
+            _ => palette::location_band(position),
+        }
     }
 }
 
@@ -162,5 +196,5 @@ fn band<'a>(table: &'a Table, column: &'a Column) -> Option<Band<'a>> {
         }
     }
     spans.dedup_by_key(|span| span.1);
-    Some(Band { name: &column.name, names, spans })
+    Some(Band { name: &column.name, is_location: column.is_location(), names, spans })
 }

@@ -55,6 +55,8 @@ struct CurveData<'a> {
 struct BandData<'a> {
     name: &'a str,
     names: &'a [String],
+    /// Whether its colours stand behind the curves.
+    behind: bool,
     colours: Vec<String>,
     shades: Vec<String>,
     /// Start times and locations.
@@ -73,18 +75,18 @@ struct EventData<'a> {
 
 pub(super) fn page(
     table: &Table,
+    content: &Content<'_>,
     events: &[EventRecord],
     options: &PlotOptions,
 ) -> Result<String, FileError> {
-    let content = Content::new(table, events, options)?;
     let entries = &table.metadata.entries;
     let title =
         options.title.as_deref().or(entries.get("model").map(String::as_str)).unwrap_or("Simulation result");
-    let rows = chosen_rows(&content);
+    let rows = chosen_rows(content);
     let phase = match &options.phase {
         Some((horizontal, vertical)) => {
             let sheet = PlotOptions { size: Some((640, 640)), ..PlotOptions::default() };
-            phase_figure(table, &content, (horizontal, vertical), &sheet, None)?
+            phase_figure(table, content, (horizontal, vertical), &sheet, None)?
         }
         None => String::new(),
     };
@@ -92,10 +94,10 @@ pub(super) fn page(
     if rows.len() < table.len() {
         notes.push(format!("Drawn from {} of {} rows; every peak is among them.", rows.len(), table.len()));
     }
-    if !content.left_out.is_empty() {
-        notes.push(format!("Not shown: {}.", content.left_out.join(", ")));
+    if let Some(note) = content.note() {
+        notes.push(format!("N{}.", note.trim_start_matches('n')));
     }
-    let data = serde_json::to_string(&data(&content, events, &rows));
+    let data = serde_json::to_string(&data(content, events, &rows));
     // "<" would let a name end the script element.
     let data = data.map_err(FileError::format(std::path::Path::new(title), "JSON"))?.replace('<', "\\u003c");
     let about: String = entries
@@ -176,7 +178,8 @@ fn data<'a>(content: &'a Content<'a>, events: &'a [EventRecord], rows: &[usize])
         BandData {
             name: band.name,
             names: band.names,
-            colours: all.clone().map(palette::location_band).collect(),
+            behind: content.automaton().is_some_and(|automaton| automaton.name == band.name),
+            colours: all.clone().map(|position| band.colour(position)).collect(),
             shades: all.map(palette::location_shade).collect(),
             starts: band.spans.iter().map(|span| span.0).collect(),
             locations: band.spans.iter().map(|span| span.1).collect(),

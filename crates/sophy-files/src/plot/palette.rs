@@ -19,6 +19,10 @@ const LOCATIONS: [[u8; 3]; 8] = [
 /// Pixels where locations change faster than the picture can show.
 pub(super) const FAST: &str = "#6b6b6b";
 
+/// Truth values on strips: what is true stands out.
+pub(super) const TRUE: &str = "#8fc1e3";
+pub(super) const FALSE: &str = "#ececec";
+
 /// Colour and dash pattern of the n-th curve of a panel.
 pub(super) fn curve(n: usize) -> (&'static str, &'static str) {
     let dashes = ["", "6 2.5", "1.5 2"];

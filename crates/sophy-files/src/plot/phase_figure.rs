@@ -39,14 +39,14 @@ pub(super) fn phase_figure(
     let y_axis = Axis::new(range(extent(up), 0.05), 6.0);
     let left = 40.0 + y_axis.ticks.iter().map(|tick| width(&tick.1, TEXT)).fold(10.0, f64::max);
     let top = if title.is_some() { 34.0 } else { 12.0 };
-    let locations: Vec<(u32, &str)> = match content.bands.as_slice() {
-        [band] => {
+    let locations: Vec<(u32, &str)> = match content.automaton() {
+        Some(band) => {
             let mut present: Vec<u32> = band.spans.iter().map(|span| span.1).collect();
             present.sort_unstable();
             present.dedup();
             present.iter().filter_map(|&l| Some((l, band.names.get(l as usize)?.as_str()))).collect()
         }
-        _ => Vec::new(),
+        None => Vec::new(),
     };
     let side = sheet - left - 16.0;
     let place = Place { left, top, side, x_axis, y_axis };
@@ -169,10 +169,7 @@ fn orbit(
     cell: f64,
     limit: usize,
 ) -> Option<BTreeMap<Ink, String>> {
-    let spans = match content.bands.as_slice() {
-        [band] => band.spans.as_slice(),
-        _ => &[],
-    };
+    let spans = content.automaton().map_or(&[][..], |band| band.spans.as_slice());
     let mut span = 0;
     let mut lines: BTreeMap<Ink, String> = BTreeMap::new();
     let mut edges = 0;

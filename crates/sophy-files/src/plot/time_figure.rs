@@ -14,7 +14,8 @@ use super::text::{fitted, width};
 const MOST_LINES: usize = 200;
 /// With more spans of locations than this, colours behind the curves are noise.
 const MOST_SHADES: usize = 150;
-/// All curves together have about this many points at most, some 12 bytes each.
+/// All curves together have about this many points at most, some 12 bytes each, unless that were less than one
+/// column for each pixel.
 const MOST_POINTS: usize = 24_000;
 
 const DEFAULT_WIDTH: f64 = 720.0;
@@ -72,9 +73,10 @@ struct Place {
     legend: Vec<(f64, f64, usize)>,
 }
 
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 enum Key {
-    Location(u32, String),
+    /// Colour and name.
+    Location(String, String),
     Fast,
     Mark(usize),
     Unmarked(usize),
@@ -111,8 +113,7 @@ impl Layout {
             + if content.bands.is_empty() { 0.0 } else { 4.0 };
         let mut key = key(content, left, right);
         let key_rows = key.last().map_or(0.0, |last| last.1 + LEGEND_ROW);
-        let note =
-            (!content.left_out.is_empty()).then(|| format!("not shown: {}", content.left_out.join(", ")));
+        let note = content.note();
         let below = strips + 42.0 + key_rows + if note.is_some() { 16.0 } else { 0.0 };
         let gaps = content.panels.len().saturating_sub(1) as f64 * PANEL_GAP;
         let mut height_of_panel = wanted;
@@ -195,12 +196,9 @@ fn key(content: &Content<'_>, left: f64, right: f64) -> Vec<(f64, f64, Key)> {
         present.dedup();
         if present.iter().any(|&location| unsaid(location)) {
             for location in present {
-                let name = name_of(band, location).to_owned();
-                if !pieces
-                    .iter()
-                    .any(|piece| matches!(piece, Key::Location(l, n) if *l == location && *n == name))
-                {
-                    pieces.push(Key::Location(location, name));
+                let piece = Key::Location(band.colour(location), name_of(band, location).to_owned());
+                if !pieces.contains(&piece) {
+                    pieces.push(piece);
                 }
             }
         }
@@ -320,7 +318,7 @@ fn draw_panel(
 
     svg.clip(&format!("panel{index}"), (layout.left, place.top - 1.0), (size.0 + 1.0, size.1 + 2.0));
     let all_curves: usize = content.panels.iter().map(|panel| panel.curves.len()).sum();
-    let columns = (MOST_POINTS as f64 / 4.0 / all_curves.max(1) as f64).clamp(50.0, 2.0 * size.0);
+    let columns = (MOST_POINTS as f64 / 4.0 / all_curves.max(1) as f64).clamp(size.0, 2.0 * size.0);
     for (n, curve) in panel.curves.iter().enumerate().rev() {
         let (colour, dashes) = palette::curve(n);
         let mut points = points(content.time, curve.values, |t| layout.x(t), |v| place.y(v));
@@ -368,7 +366,7 @@ fn draw_panel(
 
 /// Light colours behind the curves, for one automaton whose spans are wide enough to see.
 fn shade(svg: &mut Svg, content: &Content<'_>, layout: &Layout, place: &Place) {
-    let [band] = content.bands.as_slice() else { return };
+    let Some(band) = content.automaton() else { return };
     if band.spans.len() > MOST_SHADES {
         return;
     }
@@ -384,7 +382,7 @@ fn draw_band(svg: &mut Svg, layout: &Layout, band: &Band<'_>, top: f64) {
     let name = fitted(band.name, TEXT, layout.left - 12.0);
     svg.text((layout.left - 7.0, top + 0.5 * STRIP + 0.36 * TEXT), Anchor::End, TEXT, &name);
     for span in pixel_spans(band, layout.time.high, |t| layout.x(t)) {
-        let fill = span.location.map_or_else(|| palette::FAST.to_owned(), palette::location_band);
+        let fill = span.location.map_or_else(|| palette::FAST.to_owned(), |location| band.colour(location));
         svg.rect((span.from, top), (span.to - span.from, STRIP), &format!("fill=\"{fill}\""));
         let Some(location) = span.location else { continue };
         let name = name_of(band, location);
@@ -432,10 +430,7 @@ fn draw_time_axis(svg: &mut Svg, content: &Content<'_>, layout: &Layout) {
 fn draw_key(svg: &mut Svg, layout: &Layout) {
     for (x, y, piece) in &layout.key {
         match piece {
-            Key::Location(location, _) => {
-                let fill = format!("fill=\"{}\"", palette::location_band(*location));
-                svg.rect((*x, y - 9.0), (14.0, 10.5), &fill);
-            }
+            Key::Location(colour, _) => svg.rect((*x, y - 9.0), (14.0, 10.5), &format!("fill=\"{colour}\"")),
             Key::Fast => svg.rect((*x, y - 9.0), (14.0, 10.5), &format!("fill=\"{}\"", palette::FAST)),
             Key::Unmarked(_) => {}
             Key::Mark(_) => {
