@@ -2,7 +2,7 @@
 
 use crate::load::{Loaded, nowhere};
 use sophy_analysis::{ComponentDeclaration, Declarations, Dialect, TriggerDeclaration, write_hsml};
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
+use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Severity};
 
 /// A model in the other language.
 #[derive(Clone, Debug, Default)]
@@ -26,7 +26,11 @@ pub fn to_xml(loaded: &Loaded) -> Conversion {
         Ok(component) => {
             let Declarations { functions, constants, .. } = declarations;
             let writing = sophy_xml::write(component, functions, constants);
-            Conversion { text: writing.text, diagnostics: writing.diagnostics }
+            let mut diagnostics = writing.diagnostics;
+            if writing.text.is_some() {
+                left_behind(loaded, component.dialect, &mut diagnostics);
+            }
+            Conversion { text: writing.text, diagnostics }
         }
         Err(error) => {
             let mut diagnostics = Diagnostics::default();
@@ -66,6 +70,7 @@ pub fn to_hsml(loaded: &Loaded) -> Conversion {
         .iter()
         .filter(|component| component.dialect == Dialect::Xml)
         .for_each(|component| said_otherwise(component, &mut diagnostics));
+    left_behind(loaded, Dialect::Xml, &mut diagnostics);
     Conversion { text: Some(write_hsml(declarations)), diagnostics }
 }
 
@@ -83,5 +88,55 @@ fn said_otherwise(component: &ComponentDeclaration, diagnostics: &mut Diagnostic
             );
             diagnostics.push(Diagnostic::note_at(OTHER_WORDS, transition.name.span, message));
         }
+    }
+}
+
+/// What is written has documentation, but no comments.
+fn left_behind(loaded: &Loaded, dialect: Dialect, diagnostics: &mut Diagnostics) {
+    let name = loaded.provenance.model_file.display().to_string();
+    let Some(source) = loaded.sources.ids().find(|&id| loaded.sources.name(id) == name) else { return };
+    let text = loaded.sources.text(source);
+    let comments = match dialect {
+        Dialect::Hsml => comments(text),
+        Dialect::Xml => text.matches("<!--").count(),
+    };
+    let (what, kept) = match dialect {
+        Dialect::Hsml => ("`%`", "documentation (`%%`)"),
+        Dialect::Xml => ("`<!-- -->`", "`documentation`"),
+    };
+    let message = match comments {
+        0 => return,
+        1 => format!("1 comment ({what}) is left behind: only {kept} is kept"),
+        many => format!("{many} comments ({what}) are left behind: only {kept} is kept"),
+    };
+    let mut note = nowhere(OTHER_WORDS.0, message);
+    note.severity = Severity::Note;
+    diagnostics.push(note);
+}
+
+/// Number of comments of HSML that are no documentation.
+fn comments(text: &str) -> usize {
+    let is_comment = |line: &&str| {
+        let mut quote = None;
+        for (at, c) in line.char_indices() {
+            match (quote, c) {
+                (None, '%') => return !line[at..].starts_with("%%"),
+                (None, '"' | '\'') => quote = Some(c),
+                (Some(open), c) if open == c => quote = None,
+                _ => {}
+            }
+        }
+        false
+    };
+    text.lines().filter(is_comment).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::comments;
+
+    #[test]
+    fn comments_are_counted_without_documentation_and_texts() {
+        assert_eq!(comments("% a\nx; % b\n  %% documentation\nm := \"5 %\"; n := '%';\n\"a\" % c"), 3);
     }
 }

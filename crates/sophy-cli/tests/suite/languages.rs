@@ -1,6 +1,6 @@
 //! Models in HSML, and from one language to the other.
 
-use crate::support::Folder;
+use crate::support::{Folder, OSCILLATOR};
 
 const TANK: &str = "\
 CTC Tank is
@@ -110,4 +110,27 @@ fn what_the_other_language_cannot_say_is_named_and_nothing_written() {
     assert!(!folder.has("manager.xml") && !folder.has("two.xml") && !folder.has("wrong.xml"));
     folder.sophy(&["convert", "two.hsml", "two.xml", "--system", "Basin"]).ends(0, &["SX0402"]);
     assert!(folder.read("two.xml").contains("<name>Basin</name>"));
+}
+
+#[test]
+fn convert_says_what_is_said_otherwise_and_what_is_left_behind() {
+    let folder = Folder::with_oscillator("convert_says");
+    let two = OSCILLATOR
+        .replace("<states>", "<!-- of the mass --><states>")
+        .replace("Left</destination></reset>", "Left</destination></reset><inputevent>push</inputevent>");
+    folder.write("two.xml", &two);
+    folder
+        .sophy(&["convert", "two.xml", "two.hsml"])
+        .ends(0, &["HSML has two transitions", "1 comment (`<!-- -->`) is left behind", "wrote two.hsml"]);
+    assert_eq!(folder.read("two.hsml").matches("transition 'to the left'").count(), 2);
+
+    folder.write(
+        "tank.hsml",
+        "%% A tank.\n% Mine.\nCTC Tank is body declarations state x := 1; % full\nend declarations; location A \
+         dynamics der(x) = -1; end dynamics; end location; end body;",
+    );
+    folder
+        .sophy(&["convert", "tank.hsml", "tank.xml"])
+        .ends(0, &["2 comments (`%`) are left behind: only documentation (`%%`) is kept", "wrote tank.xml"]);
+    assert!(folder.read("tank.xml").contains("<documentation>A tank.</documentation>"));
 }
