@@ -146,8 +146,8 @@ pub(crate) struct Run {
     /// The component to run [default: the SYSTEM of the file, or its only component]
     #[arg(long, value_name = "NAME", help_heading = "Model")]
     pub(crate) system: Option<String>,
-    /// Set a parameter of the model
-    #[arg(long, value_name = "KNOB=VALUE", value_parser = assignment, help_heading = "Model")]
+    /// Set a parameter of the model, a knob or another one that does not decide its structure
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, help_heading = "Model")]
     pub(crate) set: Vec<(String, f64)>,
     /// Initial value of a state
     #[arg(long, visible_alias = "start-value", value_name = "STATE=VALUE", value_parser = assignment, help_heading = "Model")]

@@ -2,7 +2,8 @@
 ///
 /// Close is: equal but for case; `name` is a word of the candidate, or its first or last letters
 /// (`Mode` for `ChargeMode`, `C` for `Capacity`); or few letters differ (a third of the longer name, swapped
-/// neighbours counting as one). Earlier candidates win ties, so order them by likelihood.
+/// neighbours counting as one). Of dotted names that begin alike only the last parts count. Earlier candidates win
+/// ties, so order them by likelihood.
 pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
@@ -20,6 +21,15 @@ pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 
 /// Smaller is closer; `None` is not close at all.
 fn closeness(name: &str, candidate: &str) -> Option<usize> {
+    match (name.rsplit_once('.'), candidate.rsplit_once('.')) {
+        (Some((path, last)), Some((known, candidate))) if path == known => {
+            closeness_of_words(last, candidate)
+        }
+        _ => closeness_of_words(name, candidate),
+    }
+}
+
+fn closeness_of_words(name: &str, candidate: &str) -> Option<usize> {
     let (lower, lower_candidate) = (name.to_lowercase(), candidate.to_lowercase());
     if lower == lower_candidate {
         return Some(0);
@@ -90,5 +100,17 @@ mod tests {
         assert_eq!(meant("x2", &["x1", "y"]), Some("x1"));
         assert_eq!(meant("speed", &["altitude", "ground_Speed"]), Some("ground_Speed"));
         assert_eq!(words("oneTwo_three2Four").collect::<Vec<_>>(), ["one", "Two", "three2", "Four"]);
+    }
+
+    #[test]
+    fn dotted_names_that_begin_alike_are_told_apart_by_their_end() {
+        let meant = |name, candidates: &[&'static str]| closest(name, candidates.iter().copied());
+        assert_eq!(meant("room.Q", &["room.C", "room.loss"]), None);
+        assert_eq!(
+            meant("thermostat.temp", &["thermostat.heat", "thermostat.temperature"]),
+            Some("thermostat.temperature")
+        );
+        assert_eq!(meant("cell[2].spede", &["cell[1].speed", "cell[2].speed"]), Some("cell[2].speed"));
+        assert_eq!(meant("speed", &["cell.heat", "cell.speed"]), Some("cell.speed"));
     }
 }

@@ -4,19 +4,40 @@ use crate::graph::{Graph, Leaf, Node, NodeId};
 /// What is nested deeper is shown as `…`.
 const DEEPEST: u32 = 200;
 
+/// Writes an operand, in parentheses if its level is less than the given one.
+pub(crate) type Write<'w> = &'w dyn Fn(NodeId, u8) -> String;
+
 impl Graph {
     /// `root` in the notation of the language, with as few parentheses as precedence allows; `name` says
     /// what leaves are called.
     pub fn display(&self, root: NodeId, name: &impl Fn(Leaf) -> String) -> String {
-        self.write(root, 0, 0, name)
+        self.display_with(root, name, &|_, _| None)
+    }
+
+    /// The same, but `instead` may have other words for a node: its level and its text, from what it can have
+    /// written.
+    pub(crate) fn display_with(
+        &self,
+        root: NodeId,
+        name: &impl Fn(Leaf) -> String,
+        instead: &impl Fn(NodeId, Write<'_>) -> Option<(u8, String)>,
+    ) -> String {
+        self.write(root, 0, 0, name, instead)
     }
 
     /// Levels: 0 `if`, 1 `or`, 2 `and`, 3 `not`, 4 comparison, 5 sum, 6 product, 7 sign, 8 power, 9 atom.
-    fn write(&self, id: NodeId, least: u8, depth: u32, name: &impl Fn(Leaf) -> String) -> String {
+    fn write(
+        &self,
+        id: NodeId,
+        least: u8,
+        depth: u32,
+        name: &impl Fn(Leaf) -> String,
+        instead: &impl Fn(NodeId, Write<'_>) -> Option<(u8, String)>,
+    ) -> String {
         if depth > DEEPEST {
             return "…".to_owned();
         }
-        let write = |operand: NodeId, least: u8| self.write(operand, least, depth + 1, name);
+        let write = |operand: NodeId, least: u8| self.write(operand, least, depth + 1, name, instead);
         let infix = |level: u8, symbol: &str, a: NodeId, b: NodeId, right: u8| {
             let (a, b) = (write(a, level), write(b, right));
             (level, format!("{a} {symbol} {b}"))
@@ -25,7 +46,7 @@ impl Graph {
             let operands: Vec<_> = operands.iter().map(|&o| write(o, 0)).collect();
             (9, format!("{function}({})", operands.join(", ")))
         };
-        let (level, text) = match self.node(id) {
+        let (level, text) = instead(id, &write).unwrap_or_else(|| match self.node(id) {
             Node::Number(bits) => {
                 let value = f64::from_bits(bits);
                 (if value.is_sign_negative() { 7 } else { 9 }, format!("{value:?}"))
@@ -54,7 +75,7 @@ impl Graph {
             Node::Select(c, a, b) => {
                 (0, format!("if {} then {} else {}", write(c, 1), write(a, 1), write(b, 0)))
             }
-        };
+        });
         if level < least { format!("({text})") } else { text }
     }
 }

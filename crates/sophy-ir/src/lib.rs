@@ -25,6 +25,7 @@ mod model_text;
 mod pieces;
 mod system;
 mod system_text;
+mod written;
 
 pub use affine::Affine;
 pub use arithmetic::{Binary, Comparison, Unary};

@@ -20,12 +20,21 @@ impl Class {
     }
 
     fn text_within(&self, node: NodeId, nested: u32) -> String {
-        self.graph.display(node, &|leaf| match leaf {
+        self.graph.display(node, &|leaf| self.leaf_within(leaf, nested))
+    }
+
+    /// What a leaf is called.
+    pub(crate) fn leaf_text(&self, leaf: Leaf) -> String {
+        self.leaf_within(leaf, NESTED)
+    }
+
+    fn leaf_within(&self, leaf: Leaf, nested: u32) -> String {
+        match leaf {
             Leaf::Variable(id) => self.variable_name(id).to_owned(),
             Leaf::Special(special) => self.special_within(special, nested),
             Leaf::Time => "time".to_owned(),
             other => format!("{other:?}"),
-        })
+        }
     }
 
     fn special_within(&self, special: u32, nested: u32) -> String {
@@ -322,15 +331,19 @@ impl Text<'_> {
 }
 
 impl Class {
-    /// A trigger as it is written.
+    /// A trigger in the notation of the language.
     pub fn trigger_text(&self, trigger: &Trigger) -> String {
-        let when = |guard: &Option<NodeId>| {
-            guard.map(|guard| format!(" when {}", self.text(guard))).unwrap_or_default()
-        };
+        self.trigger_with(trigger, &|node| self.text(node))
+    }
+
+    /// A trigger with its expressions put as `text` puts them.
+    pub fn trigger_with(&self, trigger: &Trigger, text: &impl Fn(NodeId) -> String) -> String {
+        let when =
+            |guard: &Option<NodeId>| guard.map(|guard| format!(" when {}", text(guard))).unwrap_or_default();
         match trigger {
-            Trigger::When(guard) => format!("when {}", self.text(*guard)),
+            Trigger::When(guard) => format!("when {}", text(*guard)),
             Trigger::On { events, guard } => format!("on {}{}", events.join(", "), when(guard)),
-            Trigger::Rate { rate, guard } => format!("rate {}{}", self.text(*rate), when(guard)),
+            Trigger::Rate { rate, guard } => format!("rate {}{}", text(*rate), when(guard)),
             Trigger::Invariant { guard } => format!("on invariant{}", when(guard)),
             Trigger::Synchronised { label, guard } => format!("sync {label}{}", when(guard)),
         }

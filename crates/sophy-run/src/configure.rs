@@ -227,15 +227,31 @@ fn input_signals(
 /// `name` is not one of `known`.
 pub(crate) fn unknown(item: &str, kind: &str, name: &str, known: &[&str]) -> ExperimentError {
     let error = ExperimentError::new(format!("{item}.{name}"), format!("the model has no {kind} `{name}`"));
+    let common = without_indices(name);
     match closest(name, known.iter().copied()) {
+        _ if kind == "parameter" && common != name && known.contains(&common.as_str()) => {
+            error.help(format!("the copies have it in common: it is `{common}`"))
+        }
         Some(meant) => error.help(format!("did you mean `{meant}`?")),
         None if known.is_empty() => error.help(format!("the model has no {kind}s at all")),
         None => {
+            // Its neighbours first: what the component has, if there is one.
+            let path = |name: &str| name.rsplit_once('.').map(|(path, _)| path.to_owned());
+            let beside = |one: &&&str| path(one) == path(name);
+            let neighbours: Vec<&str> = known.iter().filter(beside).copied().collect();
+            let known = if neighbours.is_empty() { known } else { &neighbours };
             let shown: Vec<String> = known.iter().take(12).map(|name| format!("`{name}`")).collect();
             let more = if known.len() > 12 { ", …" } else { "" };
             error.help(format!("it has {}{more}", shown.join(", ")))
         }
     }
+}
+
+/// `room.gain` of `room[2].gain`.
+fn without_indices(name: &str) -> String {
+    let Some((path, last)) = name.rsplit_once('.') else { return name.to_owned() };
+    let parts = path.split('.').map(|part| part.split_once('[').map_or(part, |(name, _)| name));
+    parts.chain([last]).collect::<Vec<_>>().join(".")
 }
 
 /// Positions by name, the first of each; nothing if nobody will ask.

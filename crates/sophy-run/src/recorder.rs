@@ -378,7 +378,9 @@ fn available<'a>(system: &'a System, states: u32) -> Vec<Available> {
         add(&u.name, &u.unit, shown(u.quantity, source), false, false);
     }
     for (index, automaton) in system.automata.iter().enumerate() {
-        if automaton.role != sophy_ir::Role::Component {
+        // A component that was written without locations has one without a name.
+        let written = automaton.locations.iter().any(|location| !location.name.is_empty());
+        if automaton.role != sophy_ir::Role::Component || !written {
             continue;
         }
         let name = match automaton.name.as_str() {

@@ -1,8 +1,8 @@
 use super::components::Census;
 use serde::Serialize;
 use sophy_ir::{
-    Actions, Automaton, Body, Class, EventSection, HybridAutomaton, Leaf, Location, Model, NodeId, Role,
-    Rule, System, Transition, VariableId,
+    Actions, Assignment, Automaton, Body, Class, EventSection, HybridAutomaton, Leaf, Location, Model,
+    NodeId, Quantity, Role, Rule, System, Transition, VariableId,
 };
 use std::collections::HashMap;
 
@@ -86,7 +86,13 @@ pub(super) fn automata(model: &Model, census: &Census, system: &System) -> Vec<A
         if of_class.copies == 0 || bare {
             continue;
         }
-        let text = Text { class, automaton, flat: flat.get(of_class.instance.as_str()).copied(), system };
+        let text = Text {
+            class,
+            texts: &model.texts,
+            automaton,
+            flat: flat.get(of_class.instance.as_str()).copied(),
+            system,
+        };
         found.push(AutomatonDescription {
             component: of_class.place.clone(),
             class: class.name.clone(),
@@ -101,6 +107,7 @@ pub(super) fn automata(model: &Model, census: &Census, system: &System) -> Vec<A
 
 struct Text<'a> {
     class: &'a Class,
+    texts: &'a [String],
     automaton: &'a HybridAutomaton,
     /// The same of the first copy in the flat system.
     flat: Option<&'a Automaton>,
@@ -116,9 +123,13 @@ impl Text<'_> {
         self.class.variables.get(id.0 as usize).map_or("?", |variable| variable.name.as_str())
     }
 
+    fn text(&self, node: NodeId) -> String {
+        self.class.written(node, Quantity::Real, self.texts)
+    }
+
     fn location(&self, position: usize, location: &Location) -> LocationDescription {
         let affine = self.affine(position);
-        let text = |node: NodeId| self.class.text(node);
+        let text = |node: NodeId| self.text(node);
         let constraint = |c: &sophy_ir::Constraint| format!("{} = {}", text(c.left), text(c.right));
         LocationDescription {
             name: location.name.clone(),
@@ -147,13 +158,13 @@ impl Text<'_> {
         affine: &HashMap<(&str, usize), bool>,
     ) -> TransitionDescription {
         let emission = |e: &sophy_ir::Emission| match e.when {
-            Some(when) => format!("{} if {}", e.label, self.class.text(when)),
+            Some(when) => format!("{} if {}", e.label, self.text(when)),
             None => e.label.clone(),
         };
         TransitionDescription {
             name: transition.name.clone(),
             to: self.location_name(transition.destination),
-            trigger: self.class.trigger_text(&transition.trigger),
+            trigger: self.class.trigger_with(&transition.trigger, &|node| self.text(node)),
             affine: affine.get(&(transition.name.as_str(), transition.destination)).copied(),
             resets: self.resets(&transition.actions),
             emits: transition.actions.emissions.iter().map(emission).collect(),
@@ -163,7 +174,11 @@ impl Text<'_> {
 
     fn resets(&self, actions: &Actions) -> Vec<String> {
         let assigned = actions.assignments.iter();
-        let assigned = assigned.map(|a| format!("{} := {}", self.name(a.variable), self.class.text(a.right)));
+        let value = |a: &Assignment| {
+            let variable = self.class.variables.get(a.variable.0 as usize);
+            self.class.written(a.right, variable.map_or(Quantity::Real, |v| v.quantity), self.texts)
+        };
+        let assigned = assigned.map(|a| format!("{} := {}", self.name(a.variable), value(a)));
         assigned.chain(actions.holds.iter().map(|&flag| format!("hold {}", self.name(flag)))).collect()
     }
 
@@ -184,9 +199,9 @@ impl Text<'_> {
     }
 
     fn rule(&self, rule: &Rule) -> Reaction {
-        let mut when = self.class.text(rule.condition);
+        let mut when = self.text(rule.condition);
         if let Some(delay) = rule.delay {
-            when = format!("{when}, delay {} s", self.class.text(delay));
+            when = format!("{when}, delay {} s", self.text(delay));
         }
         for (is, word) in
             [(rule.latched, "latched"), (rule.cancellable, "cancellable"), (rule.initially, "initially")]
@@ -200,7 +215,7 @@ impl Text<'_> {
 
     fn does(&self, actions: &Actions) -> Vec<String> {
         let emitted = actions.emissions.iter().map(|emission| {
-            let when = emission.when.map(|when| format!(" if {}", self.class.text(when))).unwrap_or_default();
+            let when = emission.when.map(|when| format!(" if {}", self.text(when))).unwrap_or_default();
             format!("emit {}{when}", emission.label)
         });
         self.resets(actions).into_iter().chain(emitted).collect()

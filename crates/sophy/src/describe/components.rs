@@ -1,5 +1,5 @@
 use serde::Serialize;
-use sophy_ir::{Body, Class, ClassIndex, Member, Model};
+use sophy_ir::{Body, Class, ClassIndex, Member, Model, VariableKind};
 use std::collections::HashMap;
 
 /// A component, or an array of components.
@@ -7,7 +7,7 @@ use std::collections::HashMap;
 pub struct ComponentDescription {
     /// Name within the composite that holds it; of the whole, its own name.
     pub name: String,
-    /// What it is: CTC, DTC, LBC or CC.
+    /// What it is: CTC, DTC, LBC, CC, or SYSTEM if it is the whole and a composite without inputs.
     pub kind: &'static str,
     /// Name it was declared with.
     pub class: String,
@@ -75,7 +75,7 @@ impl Census {
             }
             census.list(ComponentDescription {
                 name: next.name,
-                kind: kind(class),
+                kind: if next.depth == 0 && is_system(class) { "SYSTEM" } else { kind(class) },
                 class: class.name.clone(),
                 depth: next.depth,
                 shape: next.shape,
@@ -136,6 +136,11 @@ fn members(members: &[Member], of: &Pending) -> Vec<Pending> {
     }
     found.sort_by_key(|one| first.get(one.name.as_str()).copied());
     found
+}
+
+fn is_system(class: &Class) -> bool {
+    let mut inputs = class.variables_of(|kind| matches!(kind, VariableKind::Input { .. }));
+    matches!(class.body, Body::Composite(_)) && inputs.next().is_none() && class.input_events.is_empty()
 }
 
 fn kind(class: &Class) -> &'static str {

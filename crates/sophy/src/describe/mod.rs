@@ -43,7 +43,7 @@ pub struct Description {
     pub outputs: Vec<Quantity>,
     /// Variables that are shown though they are no outputs.
     pub views: Vec<Quantity>,
-    /// Constants and knobs, which an experiment may set, with their values.
+    /// Parameters, knobs among them, with their values.
     pub constants: Vec<Quantity>,
     /// What has locations, event sections or rules, once for all copies.
     pub automata: Vec<AutomatonDescription>,
@@ -77,9 +77,9 @@ pub struct WatchDescription {
 /// How large a model is, all copies counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Sizes {
-    /// Components, composites included.
+    /// Components of which the whole consists, composites included.
     pub components: u64,
-    /// Locations of components.
+    /// Locations that were written.
     pub locations: u64,
     /// Transitions of components, event sections not counted.
     pub transitions: u64,
@@ -139,9 +139,12 @@ fn sizes(model: &Model, census: &Census, system: &System) -> Sizes {
         if let sophy_ir::Body::Automaton(automaton) = &class.body {
             let transitions: usize =
                 automaton.locations.iter().map(|location| location.transitions.len()).sum();
-            sizes.locations += of_class.copies * automaton.locations.len() as u64;
+            let written = automaton.locations.iter().filter(|location| !location.name.is_empty()).count();
+            sizes.locations += of_class.copies * written as u64;
             sizes.transitions += of_class.copies * transitions as u64;
         }
     }
+    // The whole is none of its parts.
+    sizes.components = sizes.components.saturating_sub(1);
     sizes
 }

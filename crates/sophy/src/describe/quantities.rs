@@ -18,6 +18,8 @@ pub struct Quantity {
     pub choices: Vec<String>,
     /// Whether it is a parameter of the interface.
     pub knob: bool,
+    /// Whether it is a parameter that decides the structure of the model, so that a run cannot change it.
+    pub structural: bool,
     /// What it means, in the author's words.
     pub documentation: String,
 }
@@ -55,7 +57,7 @@ impl<'a> Values<'a> {
         let described = self.system.parameters.iter().zip(&self.parameters).map(|(parameter, &value)| {
             let quantity =
                 self.quantity(&parameter.name, parameter.unit.as_ref(), parameter.origin, Some(value));
-            Quantity { knob: parameter.knob, ..quantity }
+            Quantity { knob: parameter.knob, structural: parameter.structural, ..quantity }
         });
         described.collect()
     }
@@ -87,9 +89,12 @@ impl<'a> Values<'a> {
             unit: unit.cloned(),
             value,
             text: declared.zip(value).and_then(|(variable, value)| self.text(variable, value)),
-            range: range.map(|(range, class)| range.map(|bound| class.text(bound))),
+            range: range.map(|(range, class)| {
+                range.map(|bound| class.written(bound, sophy_ir::Quantity::Real, &self.model.texts))
+            }),
             choices: declared.map(|variable| variable.choices.iter().map(text).collect()).unwrap_or_default(),
             knob: false,
+            structural: false,
             documentation: declared.map(|variable| variable.documentation.clone()).unwrap_or_default(),
         }
     }

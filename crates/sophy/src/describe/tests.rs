@@ -41,8 +41,8 @@ end body;
 fn copies_are_counted_and_coupling_is_measured() {
     let d = described(&chain(50));
     let tree: Vec<_> = d.components.iter().map(|c| (c.name.as_str(), c.kind, c.depth, c.copies)).collect();
-    assert_eq!(tree, [("Ring", "CC", 0, 1), ("cell", "CTC", 1, 50)]);
-    assert_eq!((d.states.len(), d.sizes.components), (50, 51));
+    assert_eq!(tree, [("Ring", "SYSTEM", 0, 1), ("cell", "CTC", 1, 50)]);
+    assert_eq!((d.states.len(), d.sizes.components), (50, 50));
     // Row i of a ring reads i and its predecessor; the first row reads the last column.
     let sparsity = d.sparsity.expect("counted");
     assert_eq!((sparsity.rows, sparsity.nonzeros, sparsity.least, sparsity.most), (50, 100, 2, 2));

@@ -1,15 +1,12 @@
-use super::notation::short;
+use super::notation::Notation;
 use sophy_files::{Arrow, ArrowEnd, BoxKind, Diagram, DiagramBox, DiagramKind, Line};
-use sophy_ir::{
-    Actions, Class, Equation, HybridAutomaton, Leaf, Location, Node, NodeId, Rule, Transition, Trigger,
-    VariableId,
-};
+use sophy_ir::{Actions, Equation, HybridAutomaton, Location, NodeId, Rule, Transition, Trigger, VariableId};
 
 /// Locations with their equations and the transitions between them (thesis figure 8.1).
 ///
 /// Event sections and rules hold in all locations: they are loops of the only one, or a note beside several.
-pub(super) fn automaton(class: &Class, automaton: &HybridAutomaton) -> Diagram {
-    let drawing = Drawing { class, automaton };
+pub(super) fn automaton(notation: Notation<'_>, automaton: &HybridAutomaton) -> Diagram {
+    let (class, drawing) = (notation.class, Drawing { notation, automaton });
     let everywhere = drawing.everywhere();
     let locations = automaton.locations.iter().enumerate();
     let mut boxes: Vec<DiagramBox> = locations.map(|(n, l)| drawing.location(n, l, &everywhere)).collect();
@@ -21,7 +18,7 @@ pub(super) fn automaton(class: &Class, automaton: &HybridAutomaton) -> Diagram {
     if boxes.len() == 1 {
         arrows.extend(reactions);
     } else {
-        let mut lines: Vec<Line> = everywhere.iter().map(|equation| drawing.value(equation)).collect();
+        let mut lines: Vec<Line> = everywhere.iter().filter_map(|equation| drawing.value(equation)).collect();
         for reaction in reactions {
             let what: Vec<String> = reaction.below;
             lines.push(plain(format!("{}: {}", reaction.above.join(" "), what.join(", "))));
@@ -35,25 +32,17 @@ pub(super) fn automaton(class: &Class, automaton: &HybridAutomaton) -> Diagram {
 }
 
 struct Drawing<'a> {
-    class: &'a Class,
+    notation: Notation<'a>,
     automaton: &'a HybridAutomaton,
 }
 
 impl Drawing<'_> {
     fn name(&self, id: VariableId) -> &str {
-        self.class.variables.get(id.0 as usize).map_or("?", |variable| variable.name.as_str())
+        self.notation.name(id)
     }
 
     fn text(&self, node: NodeId) -> String {
-        short(self.class, node)
-    }
-
-    /// Whether a value only shows a variable under the same name.
-    fn only_shows(&self, value: &Equation) -> bool {
-        match self.class.graph.node(value.right) {
-            Node::Leaf(Leaf::Variable(id)) => self.name(id) == self.name(value.variable),
-            _ => false,
-        }
+        self.notation.short(node)
     }
 
     /// Values that are the same in all of several locations.
@@ -68,11 +57,11 @@ impl Drawing<'_> {
             .collect();
         let same =
             |value: &&Equation| known.iter().all(|other| other.get(&value.variable) == Some(&value.right));
-        first.values.iter().filter(same).filter(|value| !self.only_shows(value)).cloned().collect()
+        first.values.iter().filter(same).cloned().collect()
     }
 
     fn location(&self, number: usize, location: &Location, everywhere: &[Equation]) -> DiagramBox {
-        let class = self.class;
+        let class = self.notation.class;
         let rests = |equation: &&Equation| class.graph.as_number(equation.right) != Some(0.0);
         let mut lines: Vec<Line> = location.dynamics.iter().filter(rests).map(|e| self.rate(e)).collect();
         let rest: Vec<&str> = location
@@ -85,14 +74,7 @@ impl Drawing<'_> {
             lines.push(plain(format!("{} constant", rest.join(", "))));
         }
         let hoisted = |value: &&Equation| !everywhere.iter().any(|other| other.variable == value.variable);
-        lines.extend(
-            location
-                .values
-                .iter()
-                .filter(hoisted)
-                .filter(|v| !self.only_shows(v))
-                .map(|value| self.value(value)),
-        );
+        lines.extend(location.values.iter().filter(hoisted).filter_map(|value| self.value(value)));
         for constraint in &location.constraints {
             lines.push(plain(format!("{} = {}", self.text(constraint.left), self.text(constraint.right))));
         }
@@ -111,7 +93,8 @@ impl Drawing<'_> {
             lines.push(location.documentation.split_whitespace().collect::<Vec<_>>().join(" "));
         }
         for equation in &location.dynamics {
-            let unit = self.class.variables.get(equation.variable.0 as usize).and_then(|v| v.unit.as_ref());
+            let unit =
+                self.notation.class.variables.get(equation.variable.0 as usize).and_then(|v| v.unit.as_ref());
             let unit =
                 unit.map(|unit| format!(" ({} in {unit})", self.name(equation.variable))).unwrap_or_default();
             lines.push(format!(
@@ -120,7 +103,7 @@ impl Drawing<'_> {
                 self.text(equation.right)
             ));
         }
-        lines.extend(location.values.iter().map(|value| self.value(value).text));
+        lines.extend(location.values.iter().filter_map(|value| self.value(value)).map(|line| line.text));
         lines.join("; ")
     }
 
@@ -129,8 +112,8 @@ impl Drawing<'_> {
         Line { derivative_of: Some(self.name(equation.variable).to_owned()), text }
     }
 
-    fn value(&self, equation: &Equation) -> Line {
-        plain(format!("{} = {}", self.name(equation.variable), self.text(equation.right)))
+    fn value(&self, equation: &Equation) -> Option<Line> {
+        self.notation.equation(equation.variable, equation.right).map(plain)
     }
 
     /// The guard above the arrow; what is received (?), assigned and emitted (!) under it.
@@ -203,8 +186,9 @@ impl Drawing<'_> {
 
     fn actions(&self, actions: &Actions) -> Vec<String> {
         let assigned = actions.assignments.iter();
+        let value = |a: &sophy_ir::Assignment| self.notation.value(a.variable, a.right);
         let mut lines: Vec<String> =
-            assigned.map(|a| format!("{} := {}", self.name(a.variable), self.text(a.right))).collect();
+            assigned.map(|a| format!("{} := {}", self.name(a.variable), value(a))).collect();
         for emission in &actions.emissions {
             let when = emission.when.map(|when| format!(" if {}", self.text(when))).unwrap_or_default();
             lines.push(format!("!{}{when}", emission.label));

@@ -1,4 +1,4 @@
-use super::notation::{short, tidy};
+use super::notation::{Notation, tidy};
 use super::ports::Ports;
 use sophy_files::{Arrow, ArrowEnd, BoxKind, Diagram, DiagramBox, DiagramKind, DiagramPort, Line};
 use sophy_ir::{Class, Clock, Composite, Discrete, EventEnd, Model, Port, Sources};
@@ -23,20 +23,21 @@ pub(super) fn composition(model: &Model, class: &Class, composite: &Composite) -
 }
 
 /// A discrete-time component: its ports, and what it does at an execution.
-pub(super) fn discrete(class: &Class, discrete: &Discrete) -> Diagram {
-    let name = |id: sophy_ir::VariableId| class.variables.get(id.0 as usize).map_or("?", |v| v.name.as_str());
+pub(super) fn discrete(notation: Notation<'_>, discrete: &Discrete) -> Diagram {
+    let class = notation.class;
+    let name = |id: sophy_ir::VariableId| notation.name(id);
     let mut lines = Vec::new();
     match &discrete.clock {
         Clock::None => {}
         Clock::Periodic { period, offset } => {
-            let from = offset.map(|offset| format!(" from {} s", short(class, offset))).unwrap_or_default();
-            lines.push(format!("every {} s{from}", short(class, *period)));
+            let from = offset.map(|offset| format!(" from {} s", notation.short(offset))).unwrap_or_default();
+            lines.push(format!("every {} s{from}", notation.short(*period)));
         }
         Clock::Announced { next } => lines.push(format!("at {}", name(*next))),
     }
-    lines
-        .extend(discrete.update.iter().map(|a| format!("{} := {}", name(a.variable), short(class, a.right))));
-    lines.extend(discrete.values.iter().map(|e| format!("{} = {}", name(e.variable), short(class, e.right))));
+    let updates = discrete.update.iter();
+    lines.extend(updates.map(|a| format!("{} := {}", name(a.variable), notation.value(a.variable, a.right))));
+    lines.extend(discrete.values.iter().filter_map(|e| notation.equation(e.variable, e.right)));
     let one = DiagramBox {
         name: class.name.clone(),
         lines: lines.into_iter().map(|text| Line { derivative_of: None, text }).collect(),

@@ -48,9 +48,10 @@ pub fn diagram(model: &Model, component: Option<&str>) -> Result<Diagram, Unknow
         Some(name) => find(model, name)?,
     };
     let Some(class) = model.classes.get(index.0 as usize) else { return Ok(Diagram::default()) };
+    let notation = notation::Notation { class, texts: &model.texts };
     Ok(match &class.body {
-        Body::Automaton(automaton) => automaton::automaton(class, automaton),
-        Body::Discrete(discrete) => composition::discrete(class, discrete),
+        Body::Automaton(automaton) => automaton::automaton(notation, automaton),
+        Body::Discrete(discrete) => composition::discrete(notation, discrete),
         Body::Composite(composite) => composition::composition(model, class, composite),
     })
 }

@@ -1,10 +1,40 @@
 //! Texts as they are read on paper.
 
-use sophy_ir::{Class, NodeId};
+use sophy_ir::{Class, NodeId, Quantity, VariableId};
 
-/// An expression in short form: `2·x − 1 ≤ y`.
-pub(super) fn short(class: &Class, node: NodeId) -> String {
-    tidy(&class.text(node))
+/// What an expression is written for.
+#[derive(Clone, Copy)]
+pub(super) struct Notation<'a> {
+    pub(super) class: &'a Class,
+    /// Those of the model.
+    pub(super) texts: &'a [String],
+}
+
+impl Notation<'_> {
+    /// An expression in short form: `2·x − 1 ≤ y`.
+    pub(super) fn short(&self, node: NodeId) -> String {
+        tidy(&self.class.written(node, Quantity::Real, self.texts))
+    }
+
+    /// The value of a variable in short form.
+    pub(super) fn value(&self, variable: VariableId, node: NodeId) -> String {
+        let quantity = self.class.variables.get(variable.0 as usize).map_or(Quantity::Real, |v| v.quantity);
+        tidy(&self.class.written(node, quantity, self.texts))
+    }
+
+    /// `variable = value`; `None` if that says no more than that a variable is shown under its own name.
+    pub(super) fn equation(&self, variable: VariableId, node: NodeId) -> Option<String> {
+        let (name, value) = (self.name(variable), self.value(variable, node));
+        match (name == value, value.contains(" = ")) {
+            (true, _) => None,
+            (false, true) => Some(format!("{name} = ({value})")),
+            (false, false) => Some(format!("{name} = {value}")),
+        }
+    }
+
+    pub(super) fn name(&self, id: VariableId) -> &str {
+        self.class.variables.get(id.0 as usize).map_or("?", |variable| variable.name.as_str())
+    }
 }
 
 /// Writes operators as on paper and whole numbers without `.0`.

@@ -26,10 +26,13 @@ pub(super) fn text(d: &Description, lists: Lists) -> String {
     quantities("Input", "", &d.inputs, lists, &mut out);
     quantities("Output", "", &d.outputs, lists, &mut out);
     quantities("View", "", &d.views, lists, &mut out);
-    let (knobs, constants): (Vec<Quantity>, Vec<Quantity>) =
-        d.constants.iter().cloned().partition(|c| c.knob);
+    let (knobs, others): (Vec<Quantity>, Vec<Quantity>) = d.constants.iter().cloned().partition(|c| c.knob);
     quantities("Knob", "value", &knobs, lists, &mut out);
-    quantities("Constant", "value", &constants, lists, &mut out);
+    let noun = if knobs.is_empty() { "Parameter" } else { "Other parameter" };
+    quantities(noun, "value", &others, lists, &mut out);
+    if !d.constants.is_empty() && d.components.iter().any(|one| !one.shape.is_empty()) {
+        line(&mut out, "  (copies written as `NAME : KIND[n]` have their parameters in common)");
+    }
     d.automata.iter().for_each(|automaton| locations(automaton, &mut out));
     clocks(&d.clocks, &mut out);
     dependencies(d, lists, &mut out);
@@ -53,14 +56,13 @@ pub(super) fn text(d: &Description, lists: Lists) -> String {
 
 fn sizes(d: &Description) -> String {
     let of = |list: &[Quantity]| list.len() as u64;
-    let components = if d.sizes.components > 1 { d.sizes.components } else { 0 };
     let first = counted(&[
-        (components, "component"),
+        (d.sizes.components, "component"),
         (of(&d.states), "state"),
         (of(&d.modes), "mode"),
         (of(&d.inputs), "input"),
         (of(&d.outputs), "output"),
-        (of(&d.constants), "constant"),
+        (of(&d.constants), "parameter"),
         (d.sizes.locations, "location"),
         (d.sizes.transitions, "transition"),
     ]);
@@ -116,7 +118,9 @@ fn quantities(noun: &str, value_title: &str, quantities: &[Quantity], lists: Lis
             None => String::new(),
         };
         let documentation = q.documentation.split_whitespace().collect::<Vec<_>>().join(" ");
-        [name, value, format!("{within}  {documentation}").trim().to_owned()]
+        let fixed = if q.structural { "fixed: it decides the structure" } else { "" };
+        let remarks = [within.as_str(), fixed, documentation.as_str()].into_iter().filter(|r| !r.is_empty());
+        [name, value, remarks.collect::<Vec<_>>().join("  ")]
     };
     let rows: Vec<[String; 3]> = quantities[..lists.shown(quantities.len())].iter().map(row).collect();
     table(&format!("{noun}s"), value_title, &rows, out);
@@ -224,6 +228,10 @@ fn matrix(d: &Description, out: &mut String) {
     let read: HashSet<&str> = d.dependencies.iter().flat_map(|row| &row.reads).map(String::as_str).collect();
     let named = d.states.iter().chain(&d.modes).chain(&d.inputs).map(|q| q.name.as_str()).chain(["time"]);
     let columns: Vec<&str> = named.filter(|name| read.contains(name)).collect();
+    if columns.is_empty() {
+        line(out, "\nDependencies: no rate reads a state, a mode, an input or the time");
+        return;
+    }
     let width = d.dependencies.iter().map(|row| row.state.chars().count() + 5).max().unwrap_or(0);
     line(out, "\nDependencies (× read in all locations, + in some)");
     line(out, &format!("  {:<width$}  {}", "", columns.join("  ")));
