@@ -67,6 +67,9 @@ fn report(arguments: &Run, model: &Model, loaded: &Loaded, finished: &Finished, 
     }
 }
 
+/// Locations at the end that a few lines have room for.
+const MOST_PLACES: usize = 6;
+
 /// A few lines for people.
 fn summary(model: &Model, start: f64, finished: &Finished) -> String {
     let report = &finished.report;
@@ -75,14 +78,18 @@ fn summary(model: &Model, start: f64, finished: &Finished) -> String {
         Outcome::Interrupted => "interrupted at",
         Outcome::Zeno(_) => "stopped at",
     };
-    let places: Vec<String> = finished
-        .locations
+    let many = finished.locations.len();
+    let shown = if many > MOST_PLACES + 1 { MOST_PLACES } else { many };
+    let mut places: Vec<String> = finished.locations[..shown]
         .iter()
         .map(|(component, location)| match component.as_str() {
             "" => location.clone(),
             component => format!("{component} in {location}"),
         })
         .collect();
+    if many > shown {
+        places.push(format!("and {} more", count((many - shown) as u64)));
+    }
     let place = if places.is_empty() { String::new() } else { format!(", in {}", places.join(", ")) };
     let transitions = plural(report.statistics.hybrid.transitions, "transition");
     let mut text = format!("{}: {how} t = {} s after {transitions}{place}\n", model.name(), report.time);

@@ -219,6 +219,20 @@ fn texts_and_truth_values_are_recorded_as_they_are_written() {
 }
 
 #[test]
+fn the_summary_of_many_components_is_short() {
+    let folder = Folder::new("many_locations");
+    folder.write(
+        "many.hsml",
+        "CTC C is body declarations state x := 1; end declarations; location A dynamics der(x) = -1; end dynamics; \
+         transition go when x < 0 goto B; end location; location B end location; end body;\n\
+         SYSTEM Many is body components c : C[1000]; end components; end body;",
+    );
+    let answer = folder.sophy(&["run", "many.hsml", "--stop", "0.5"]);
+    answer.ends(0, &["c[6] in A, and 994 more"]);
+    assert!(!answer.err.contains("c[7]"), "{}", answer.err);
+}
+
+#[test]
 fn a_picture_says_what_it_has_no_room_for() {
     let folder = Folder::new("no_room");
     folder.write(
