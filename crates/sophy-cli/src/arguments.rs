@@ -169,7 +169,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "FILE.csv", help_heading = "Inputs")]
     pub(crate) input_events: Option<PathBuf>,
 
-    /// Variables to record, `*` for any characters [default: outputs (or states) and locations]
+    /// Variables to record, `*` for any characters [default: outputs and views (or states), locations]
     #[arg(
         long,
         visible_alias = "output-variable",

@@ -23,7 +23,7 @@ pub struct Finished {
     pub locations: Vec<(String, String)>,
     /// The files written, in the order asked for.
     pub files: Vec<PathBuf>,
-    /// What is to be said of variables that pictures have no room for.
+    /// The variables that pictures have no room for, in a few words, if there are any.
     pub not_drawn: Option<String>,
     /// What is to be said if transitions accumulated.
     pub zeno: Option<Diagnostic>,

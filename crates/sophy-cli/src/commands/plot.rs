@@ -15,11 +15,13 @@ pub(crate) fn plot(arguments: &Plot, terminal: &Terminal) -> Exit {
     for result in &arguments.results {
         let picture = arguments.output.clone().unwrap_or_else(|| beside(result));
         match draw(arguments, result, &picture) {
-            Ok(note) => {
-                let said = note.as_ref().map(|note| format!("; {note}; `--variables NAME,…` chooses"));
+            Ok(not_drawn) => {
+                let said = not_drawn
+                    .as_ref()
+                    .map(|names| format!("; not shown: {names}; `--variables NAME,…` chooses"));
                 terminal.remark(
                     &format!("wrote {}{}", picture.display(), said.unwrap_or_default()),
-                    &json!({ "kind": "plot", "result": result, "output": picture, "not_drawn": note }),
+                    &json!({ "kind": "plot", "result": result, "output": picture, "not_drawn": not_drawn }),
                 );
             }
             Err(error) => {

@@ -105,8 +105,8 @@ fn summary(model: &Model, start: f64, finished: &Finished) -> String {
     } else {
         text.push_str(&format!("\n  wrote {}", files.join(", ")));
     }
-    if let Some(note) = &finished.not_drawn {
-        text.push_str(&format!("\n  in the picture {note}; `--record NAME,…` chooses"));
+    if let Some(names) = &finished.not_drawn {
+        text.push_str(&format!("\n  not shown in the picture: {names}; `--record NAME,…` chooses"));
     }
     text
 }

@@ -241,10 +241,12 @@ fn a_picture_says_what_it_has_no_room_for() {
          declarations; dynamics der(y) = -rate*y; end dynamics; assignments rate : 1; end assignments; end body;\n\
          SYSTEM Many is body components c : C[20]; end components; end body;",
     );
-    let note = "not shown: 8 of 20 variables, c[13].y … c[20].y";
+    let names = "8 of 20 variables, c[13].y … c[20].y";
     let run = ["run", "many.hsml", "--stop", "1", "--record", "*.y", "--plot", "a.svg", "-o", "a.csv"];
-    folder.sophy(&run).ends(0, &[note, "--record"]);
-    assert!(folder.read("a.svg").contains(note));
-    folder.sophy(&["plot", "a.csv", "-o", "b.html"]).ends(0, &[note, "--variables"]);
-    assert!(folder.read("b.html").contains(&note[1..]));
+    folder.sophy(&run).ends(0, &[&format!("not shown in the picture: {names}"), "--record"]);
+    assert!(folder.read("a.svg").contains(&format!("not shown: {names}")));
+    folder
+        .sophy(&["plot", "a.csv", "-o", "b.html"])
+        .ends(0, &[&format!("not shown: {names}"), "--variables"]);
+    assert!(folder.read("b.html").contains(&format!("Not shown: {names}.")));
 }

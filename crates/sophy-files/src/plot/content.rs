@@ -90,16 +90,16 @@ impl<'a> Content<'a> {
         locations.next().filter(|_| locations.next().is_none())
     }
 
-    /// What is to be said of the variables that found no room.
+    /// The variables that found no room, in a few words.
     pub(super) fn note(&self) -> Option<String> {
         match self.left_out.as_slice() {
             [] => None,
             [.., last] if self.left_out.len() > 4 => {
                 let shown: usize = self.panels.iter().map(|panel| panel.curves.len()).sum();
                 let (left, all) = (self.left_out.len(), self.left_out.len() + shown + self.bands.len());
-                Some(format!("not shown: {left} of {all} variables, {} … {last}", self.left_out[0]))
+                Some(format!("{left} of {all} variables, {} … {last}", self.left_out[0]))
             }
-            few => Some(format!("not shown: {}", few.join(", "))),
+            few => Some(few.join(", ")),
         }
     }
 }

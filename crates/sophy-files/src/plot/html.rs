@@ -94,9 +94,7 @@ pub(super) fn page(
     if rows.len() < table.len() {
         notes.push(format!("Drawn from {} of {} rows; every peak is among them.", rows.len(), table.len()));
     }
-    if let Some(note) = content.note() {
-        notes.push(format!("N{}.", note.trim_start_matches('n')));
-    }
+    notes.extend(content.note().map(|names| format!("Not shown: {names}.")));
     let data = serde_json::to_string(&data(content, events, &rows));
     // "<" would let a name end the script element.
     let data = data.map_err(FileError::format(std::path::Path::new(title), "JSON"))?.replace('<', "\\u003c");

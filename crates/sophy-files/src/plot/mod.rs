@@ -34,7 +34,7 @@ pub(crate) use png::png;
 ///
 /// Of many rows only those that show are drawn: the first, lowest, highest and last of every pixel column.
 ///
-/// Returns what is to be said of the variables that found no room, if there are any.
+/// Returns the variables that found no room, in a few words, if there are any.
 ///
 /// # Errors
 /// [`FileError::UnknownExtension`], [`FileError::NoVariable`], [`FileError::Write`].

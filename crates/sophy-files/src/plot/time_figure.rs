@@ -113,7 +113,7 @@ impl Layout {
             + if content.bands.is_empty() { 0.0 } else { 4.0 };
         let mut key = key(content, left, right);
         let key_rows = key.last().map_or(0.0, |last| last.1 + LEGEND_ROW);
-        let note = content.note();
+        let note = content.note().map(|names| format!("not shown: {names}"));
         let below = strips + 42.0 + key_rows + if note.is_some() { 16.0 } else { 0.0 };
         let gaps = content.panels.len().saturating_sub(1) as f64 * PANEL_GAP;
         let mut height_of_panel = wanted;

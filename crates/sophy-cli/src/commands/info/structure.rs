@@ -130,14 +130,17 @@ fn quantities(noun: &str, value_title: &str, quantities: &[Quantity], lists: Lis
 fn locations(automaton: &AutomatonDescription, out: &mut String) {
     let copies =
         if automaton.copies > 1 { format!(" (as all {})", count(automaton.copies)) } else { String::new() };
+    let written = automaton.locations.iter().any(|location| !location.name.is_empty());
+    let title = if written { "Locations" } else { "Events and rules" };
     match automaton.component.as_str() {
-        "" => line(out, "\nLocations"),
-        component => line(out, &format!("\nLocations of {component} : {}{copies}", automaton.class)),
+        "" => line(out, &format!("\n{title}")),
+        component => line(out, &format!("\n{title} of {component} : {}{copies}", automaton.class)),
     }
     for location in &automaton.locations {
         let initial = if location.name == automaton.initial { "  (initial)" } else { "" };
-        let name = if location.name.is_empty() { "the only one" } else { &location.name };
-        line(out, &format!("  {name}{initial}"));
+        if written {
+            line(out, &format!("  {}{initial}", location.name));
+        }
         if let Some(invariant) = &location.invariant {
             line(out, &format!("    while {invariant}"));
         }
