@@ -94,7 +94,7 @@
     const [digits, power] = step.toExponential(5).split("e");
     const place = Number(power) - digits.replace(/0+$/, "").length + 2;
     const largest = Math.max(...ticks.map(Math.abs));
-    const plain = largest === 0 || (largest < 1e7 && largest >= 1e-2);
+    const plain = largest === 0 || (largest < (place > 3 ? 1e7 : 1e15) && largest >= 1e-2);
     const label = v => plain ? v.toFixed(Math.max(0, -place)) : v === 0 ? "0" : v.toExponential(Math.max(0, order(v) - place));
     // Late digits alone when all do not fit; the values under the curves are whole.
     const short = text => text.length > 8 ? "\u2026" + text.slice(-6) : text;
