@@ -64,11 +64,18 @@ fn find(model: &Model, name: &str) -> Result<ClassIndex, UnknownComponent> {
     if let Some(position) = named {
         return Ok(ClassIndex(position as u32));
     }
-    let members = match model.classes.get(model.root.0 as usize).map(|class| &class.body) {
+    // Of a path that is right but for its end, the members there.
+    let (before, holder) = match name.rsplit_once('.') {
+        Some((path, _)) => (format!("{path}."), along(model, path)),
+        None => (String::new(), Some(model.root)),
+    };
+    let members = match holder.and_then(|index| model.classes.get(index.0 as usize)).map(|class| &class.body)
+    {
         Some(Body::Composite(composite)) => composite.members.as_slice(),
         _ => &[],
     };
-    let known = members.iter().map(|member| member.name.as_str());
+    let members: Vec<String> = members.iter().map(|member| format!("{before}{}", member.name)).collect();
+    let known = members.iter().map(String::as_str);
     let known = known.chain(model.classes.iter().map(|class| class.name.as_str()));
     Err(UnknownComponent { name: name.to_owned(), closest: closest(name, known).map(str::to_owned) })
 }

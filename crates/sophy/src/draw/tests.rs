@@ -140,6 +140,13 @@ fn a_component_is_found_by_path_or_by_its_kind() {
     }
     let error = diagram(&chain, Some("cel")).expect_err("unknown");
     assert_eq!(error.to_string(), "the model has no component `cel`; there is `cell`");
+
+    let whole = format!(
+        "{CHAIN}SYSTEM Whole is body components left : Chain; end components; \
+         connections left.y -> left.u; end connections; end body;"
+    );
+    let error = diagram(&model(&whole, "Whole"), Some("left.cel")).expect_err("unknown");
+    assert_eq!(error.closest.as_deref(), Some("left.cell"));
 }
 
 #[test]
