@@ -1,4 +1,5 @@
-use sophy_diagnostics::{Diagnostic, Diagnostics, Severity, Span};
+use crate::units::NoteKind;
+use sophy_diagnostics::{Diagnostic, Diagnostics, Severity, SourceId, Span};
 use std::collections::HashSet;
 
 /// An expression uses a name that nothing declares.
@@ -18,6 +19,8 @@ pub(crate) struct Findings {
     pub(crate) unknown_names: Vec<UnknownName>,
     /// Uses of `log`.
     pub(crate) logarithms: Vec<Span>,
+    /// What was said of units of a file; once is enough.
+    pub(crate) unit_notes: Vec<(SourceId, NoteKind)>,
     /// Whether it was said that the model grows beyond bounds.
     pub(crate) too_large: bool,
     /// Binders that were said to hide something: the body of a function is lowered with every call.

@@ -119,7 +119,7 @@ pub const CODES: &[(Code, &str)] = &[
     (hs0119_no_location::CODE, "a system has no location"),
     (hs0120_unknown_type::CODE, "a type that does not exist"),
     (hs0121_extent::CODE, "an extent that is no number of elements"),
-    (hs0122_unit::CODE, "a unit that cannot be read"),
+    (hs0122_unit::CODE, "a unit that cannot be read or converted"),
     (hs0123_knob_without_value::CODE, "a knob has no value"),
     (hs0124_unknown_view::CODE, "a view of something that is not a variable"),
     (hs0125_type_does_not_suit::CODE, "a type does not suit what has it"),

@@ -102,7 +102,7 @@ impl<'a> Builder<'_, 'a> {
         match units::parse(&unit.value) {
             Ok(parsed) => {
                 for note in &parsed.notes {
-                    self.report(hs0122_unit::note(&note.kind.to_string(), unit));
+                    hs0122_unit::note(note.kind, unit, &mut self.shared.findings);
                 }
                 Measured::Known(parsed.unit)
             }

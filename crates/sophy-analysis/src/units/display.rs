@@ -1,7 +1,7 @@
 //! Units in messages.
 
 use super::unit::nearly_equal;
-use super::{Dimension, Unit, table};
+use super::{Dimension, NoteKind, Unit, table};
 use sophy_ir::Binary;
 use std::fmt;
 
@@ -17,10 +17,14 @@ const LENGTHS: [&str; 9] = ["m", "ft", "mm", "cm", "km", "in", "nmi", "mi", "um"
 const TIMES: [&str; 7] = ["s", "min", "h", "ms", "us", "day", "year"];
 const NUMBERS: [&str; 5] = ["deg", "%", "rev", "byte", "arcsec"];
 
-/// As an engineer would write it: `ft/s`, `deg/s`, `km/h`, `lbf`; else as a multiple (`3.2 m/s`). A unit of
-/// unknown scale is written as its dimension. [`super::parse`] reads it back.
+/// As the modeller wrote it. What was computed, as an engineer would write it: `ft/s`, `deg/s`, `km/h`, `lbf`; else in
+/// the words that it was computed of (`m/ft`) or as a multiple (`3.2 m/s`). A unit of unknown scale is written as its
+/// dimension. [`super::parse`] reads it back.
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(written) = self.wording.as_written() {
+            return f.write_str(written);
+        }
         let Some(factor) = self.factor.filter(|factor| !nearly_equal(*factor, 1.0)) else {
             return self.dimension.fmt(f);
         };
@@ -37,6 +41,9 @@ impl fmt::Display for Unit {
         }
         if let Some([mass, length, time]) = other_bases(self.dimension, factor) {
             return self.dimension.write(f, [mass, length, time, "A", "K", "mol", "cd"]);
+        }
+        if let Some(words) = self.wording.text() {
+            return f.write_str(words);
         }
         write!(f, "{}", rounded(factor, 13))?;
         if self.dimension.is_one() { Ok(()) } else { write_multiple(f, "", self.dimension) }
@@ -87,6 +94,13 @@ fn factor_of(symbol: &str, dimension: Dimension) -> Option<f64> {
 /// The names are as the modeller wrote them, the empty one is that of plain numbers: `1 % = 0.01`. `None` if
 /// there is no factor between the two.
 pub(crate) fn conversion(a: (&str, Unit), b: (&str, Unit)) -> Option<String> {
+    // Which temperature another one is takes more than a factor.
+    let has_own_zero = |name: &str| {
+        super::parse(name).is_ok_and(|parsed| parsed.notes.iter().any(|note| note.kind == NoteKind::Offset))
+    };
+    if has_own_zero(a.0) || has_own_zero(b.0) {
+        return None;
+    }
     let there = rounded(a.1.in_terms_of(b.1)?, 9);
     let back = rounded(b.1.in_terms_of(a.1)?, 9);
     let forward = b.0.is_empty() || (there.len() <= back.len() + 1 && !a.0.is_empty());
@@ -107,8 +121,9 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    /// A unit that nobody wrote.
     fn unit(text: &str) -> Unit {
-        parse(text).unwrap().unit
+        Unit { wording: super::super::wording::Wording::NONE, ..parse(text).unwrap().unit }
     }
 
     #[test]
@@ -157,6 +172,7 @@ mod tests {
             ("eV", "J", Some("1 eV = 1.60217663e-19 J")),
             ("m", "s", None),
             ("degC", "K", None),
+            ("degF", "degC", None),
         ] {
             let said = conversion((a, unit(a)), (b, unit(b)));
             assert_eq!(said.as_deref(), expected, "{a} {b}");

@@ -44,30 +44,25 @@ impl Mismatch {
 
     /// The conversion that is missing: `1 ft = 0.3048 m`.
     pub(crate) fn conversion(self) -> Option<String> {
-        let (left, right) = self.names();
-        let name = |name| if name == "1" { String::new() } else { name };
-        conversion((&name(left), self.left), (&name(right), self.right))
-    }
-
-    /// Both units in words. Beside an angle in degrees a plain number is one in radians.
-    fn names(self) -> (String, String) {
         let (left, right) = (self.left.to_string(), self.right.to_string());
-        let beside = |name: String, other: &str| {
+        // Beside an angle in degrees a plain number is one in radians.
+        let beside = |name: &str, other: &str| {
             let angle = ["deg", "rev", "arcsec", "rpm"].iter().any(|unit| other.starts_with(unit));
-            match name.strip_prefix('1') {
+            match name.strip_prefix('1').filter(|below| below.is_empty() || below.starts_with('/')) {
                 Some(below) if angle && self.is_of_scale() => format!("rad{below}"),
-                _ => name,
+                Some("") => String::new(),
+                _ if name.starts_with(|c: char| c.is_ascii_digit()) => format!("({name})"),
+                _ => name.to_owned(),
             }
         };
-        (beside(left.clone(), &right), beside(right, &left))
+        conversion((&beside(&left, &right), self.left), (&beside(&right, &left), self.right))
     }
 }
 
 /// "`ft` and `m`": the rest of the sentence depends on where they met.
 impl fmt::Display for Mismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (left, right) = self.names();
-        write!(f, "`{left}` and `{right}`")
+        write!(f, "`{}` and `{}`", self.left, self.right)
     }
 }
 
@@ -97,7 +92,7 @@ impl Measured {
             (Number(a), Number(b)) => Ok(Number(if a == b { a } else { None })),
             (Known(unit), Number(_)) | (Number(_), Known(unit)) => Ok(Known(unit)),
             (Known(left), Known(right)) if left.fits(right) => {
-                Ok(Known(Unit { factor: left.factor.or(right.factor), ..left }))
+                Ok(Known(if left.factor.is_some() { left } else { right }))
             }
             (Known(left), Known(right)) => Err(Mismatch { left, right }),
         }
@@ -406,12 +401,25 @@ mod tests {
         assert_eq!(said("%", "1"), (own("`%` and `1`"), true, Some(own("1 % = 0.01"))));
         assert_eq!(said("1", "%"), (own("`1` and `%`"), true, Some(own("1 % = 0.01"))));
         assert_eq!(said("deg", "rad"), (own("`deg` and `rad`"), true, Some(own("1 rad = 57.2957795 deg"))));
-        assert_eq!(
-            said("1/s", "rpm"),
-            (own("`rad/s` and `rpm`"), true, Some(own("1 rad/s = 9.54929659 rpm")))
-        );
+        assert_eq!(said("1/s", "rpm"), (own("`1/s` and `rpm`"), true, Some(own("1 rad/s = 9.54929659 rpm"))));
         assert_eq!(said("deg", "m"), (own("`deg` and `m`"), false, None));
         assert_eq!(said("1", "deg/s"), (own("`1` and `deg/s`"), false, None));
+        assert_eq!(said("kg*m/s^2", "lb ft/s2").0, "`kg*m/s^2` and `lb ft/s2`");
+        assert_eq!(said("degF", "K"), (own("`degF` and `K`"), true, None));
+        assert_eq!(said("60/s", "m"), (own("`60/s` and `m`"), false, None));
+        assert_eq!(said("60/s", "1/s").2, Some(own("1 (60/s) = 60 (1/s)")));
+    }
+
+    #[test]
+    fn what_is_computed_has_a_name_if_it_can() {
+        let said = |unit: Measured| unit.require_number().unwrap_err().left.to_string();
+        let quotient = |a, b| known(a).over(known(b));
+        assert_eq!(said(quotient("m", "ft")), "m/ft");
+        assert_eq!(said(quotient("kg*m", "s2")), "N");
+        assert_eq!(said(quotient("lbf", "kg/s2").over(known("ft"))), "lbf/(kg/s2)/ft");
+        assert_eq!(said(known("ft/s").times(known("s"))), "ft");
+        let long = known(&format!("1000{}m", " ".repeat(40)));
+        assert_eq!(said(long), "km");
     }
 
     fn measured() -> impl Strategy<Value = Measured> {
@@ -419,10 +427,10 @@ mod tests {
         prop_oneof![
             Just(Unchecked),
             prop::sample::select(vec![0.5, 2.0, 0.3048, 1.0]).prop_map(Measured::literal),
-            unit.prop_map(|(exponents, factor)| Known(Unit {
-                dimension: super::super::Dimension::new(exponents),
-                factor
-            })),
+            unit.prop_map(|(exponents, factor)| {
+                let unit = Unit::si(super::super::Dimension::new(exponents));
+                Known(Unit { factor, ..unit })
+            }),
         ]
     }
 

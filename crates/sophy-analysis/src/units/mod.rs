@@ -13,9 +13,10 @@ mod measured;
 mod parse;
 mod table;
 mod unit;
+mod wording;
 
 pub(crate) use dimension::Dimension;
 pub(crate) use display::conversion;
 pub(crate) use measured::{Measured, Mismatch};
-pub(crate) use parse::{UnitError, parse};
+pub(crate) use parse::{NoteKind, UnitError, parse};
 pub(crate) use unit::Unit;

@@ -38,9 +38,8 @@ pub(crate) struct Note {
 /// What may surprise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NoteKind {
-    /// A temperature with another zero than the kelvin. It is taken as a temperature of unknown scale: the
-    /// dimension is checked, 273.15 is the modeller's. In a compound (`W/(m2.degC)`) only differences count,
-    /// and nothing is to be noted.
+    /// A temperature with another zero than the kelvin. It has the scale of a difference of temperatures; the
+    /// 273.15 is the modeller's. In a compound (`W/(m2.degC)`) only differences count, and nothing is to be noted.
     Offset,
     /// A logarithmic number, taken as a number of unknown scale.
     Logarithm,
@@ -51,9 +50,7 @@ pub(crate) enum NoteKind {
 impl fmt::Display for NoteKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            NoteKind::Offset => {
-                "the zero of this temperature is not converted: only its dimension is checked"
-            }
+            NoteKind::Offset => "its zero is not converted: it is checked as a difference of temperatures",
             NoteKind::Logarithm => "a logarithmic unit is not converted: it is checked as a number",
             NoteKind::ProductAfterDivision => {
                 "this factor stands above the line: write `a/(b.c)` if it belongs below"
@@ -120,7 +117,7 @@ pub(crate) fn parse(text: &str) -> Result<ParsedUnit, UnitError> {
         return Ok(ParsedUnit { unit: Unit::ONE, notes: Vec::new() });
     }
     let mut parser = Parser { text, at: 0, depth: 0, offset: None, notes: Vec::new() };
-    let mut unit = parser.product()?;
+    let unit = parser.product()?;
     if let Some(found) = parser.peek() {
         return Err(parser.error_at_char(UnitErrorKind::Unexpected(found)));
     }
@@ -128,10 +125,9 @@ pub(crate) fn parse(text: &str) -> Result<ParsedUnit, UnitError> {
     if let Some(range) = parser.offset
         && text.get(range.clone()) == Some(plain)
     {
-        unit = unit.of_unknown_scale();
         parser.notes.push(Note { kind: NoteKind::Offset, range });
     }
-    Ok(ParsedUnit { unit, notes: parser.notes })
+    Ok(ParsedUnit { unit: unit.written(plain), notes: parser.notes })
 }
 
 struct Parser<'a> {

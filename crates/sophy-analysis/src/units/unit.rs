@@ -1,18 +1,28 @@
 //! A unit: a dimension and how many SI units it is.
 
 use super::Dimension;
+use super::wording::Wording;
 use sophy_ir::Binary;
 
 /// A multiple of the SI unit of its dimension.
 ///
 /// The factor is `None` where it is not known: `0.3048*y` may be a conversion or may be not. Such a unit fits
-/// every unit of its dimension. Units with an offset (`degC`) do not exist here; see [`super::parse`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// every unit of its dimension. Units with an offset (`degC`) do not exist here; see [`super::parse`]. How it was
+/// written is for messages only: units are equal without it.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Unit {
     /// What is measured.
     pub(crate) dimension: Dimension,
     /// How many SI units one of it is, if that is known; positive and finite.
     pub(crate) factor: Option<f64>,
+    /// In the modeller's words.
+    pub(super) wording: Wording,
+}
+
+impl PartialEq for Unit {
+    fn eq(&self, other: &Unit) -> bool {
+        (self.dimension, self.factor) == (other.dimension, other.factor)
+    }
 }
 
 impl Unit {
@@ -23,35 +33,43 @@ impl Unit {
 
     /// The SI unit of a dimension.
     pub(crate) const fn si(dimension: Dimension) -> Unit {
-        Unit { dimension, factor: Some(1.0) }
+        Unit { dimension, factor: Some(1.0), wording: Wording::NONE }
     }
 
     /// `factor` SI units; of unknown factor if it is not a positive normal number.
     pub(crate) fn new(dimension: Dimension, factor: f64) -> Unit {
-        Unit { dimension, factor: Some(factor).filter(|f| f.is_normal() && *f > 0.0) }
+        let factor = Some(factor).filter(|f| f.is_normal() && *f > 0.0);
+        Unit { dimension, factor, wording: Wording::NONE }
+    }
+
+    /// The same as the modeller wrote it.
+    pub(super) fn written(self, text: &str) -> Unit {
+        Unit { wording: Wording::of(text), ..self }
     }
 
     /// The same dimension in an unknown scale.
     pub(crate) fn of_unknown_scale(self) -> Unit {
-        Unit { factor: None, ..self }
+        Unit { factor: None, wording: Wording::NONE, ..self }
     }
 
     /// The unit of a product; `None` if exponents grow beyond bounds.
     pub(crate) fn times(self, other: Unit) -> Option<Unit> {
         let dimension = self.dimension.times(other.dimension)?;
-        Some(self.scaled(other, dimension, |a, b| a * b))
+        let wording = Wording::combined(self.wording, other.wording, "*");
+        Some(Unit { wording, ..self.scaled(other, dimension, |a, b| a * b) })
     }
 
     /// The unit of a quotient; `None` if exponents grow beyond bounds.
     pub(crate) fn over(self, other: Unit) -> Option<Unit> {
         let dimension = self.dimension.over(other.dimension)?;
-        Some(self.scaled(other, dimension, |a, b| a / b))
+        let wording = Wording::combined(self.wording, other.wording, "/");
+        Some(Unit { wording, ..self.scaled(other, dimension, |a, b| a / b) })
     }
 
     fn scaled(self, other: Unit, dimension: Dimension, with: fn(f64, f64) -> f64) -> Unit {
         match (self.factor, other.factor) {
             (Some(a), Some(b)) => Unit::new(dimension, with(a, b)),
-            _ => Unit { dimension, factor: None },
+            _ => Unit::si(dimension).of_unknown_scale(),
         }
     }
 
@@ -59,7 +77,7 @@ impl Unit {
     pub(crate) fn power(self, exponent: f64) -> Option<Unit> {
         let dimension = self.dimension.power(exponent)?;
         let power = |factor| Unit::new(dimension, Binary::Power.apply(factor, exponent));
-        Some(self.factor.map_or(Unit { dimension, factor: None }, power))
+        Some(self.factor.map_or(Unit::si(dimension).of_unknown_scale(), power))
     }
 
     /// The unit of a square root.

@@ -134,11 +134,11 @@ fn a_product_after_a_division_stands_above_the_line_and_is_noted() {
 }
 
 #[test]
-fn temperatures_with_another_zero_have_a_dimension_only() {
+fn temperatures_with_another_zero_have_the_scale_of_a_difference() {
     for text in ["degC", "°C", " degF ", "°F", "℃", "deg C", "celsius"] {
         assert_eq!(notes(text), [(NoteKind::Offset, text.trim())], "{text}");
-        assert_eq!(unit(text).factor, None);
-        assert!(unit(text).fits(unit("K")));
+        assert!(unit(text).same_dimension(unit("K")));
+        assert_eq!(unit(text).fits(unit("K")), !text.contains('F'));
         assert!(!unit(text).fits(unit("V")));
     }
     assert_eq!(notes("W/degC"), []);
