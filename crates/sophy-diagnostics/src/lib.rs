@@ -19,4 +19,4 @@ pub use render::{Style, render};
 pub use source::{LineColumn, SourceId, Sources, Span};
 pub use suggest::closest;
 pub use text_map::TextMap;
-pub use world::{MemoryWorld, World, WorldError};
+pub use world::{MemoryWorld, World, WorldError, simplified};

@@ -2,7 +2,7 @@ use sha2::{Digest, Sha256};
 use sophy_diagnostics::{World, WorldError};
 use std::cell::RefCell;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A world that remembers the digest of all that was read from it, in order.
 pub(crate) struct Digesting<'w> {
@@ -32,6 +32,10 @@ impl World for Digesting<'_> {
         let bytes = self.world.read(path)?;
         self.digest.borrow_mut().update(&bytes);
         Ok(bytes)
+    }
+
+    fn identity(&self, path: &Path) -> PathBuf {
+        self.world.identity(path)
     }
 }
 

@@ -1,5 +1,5 @@
 use sophy_diagnostics::{World, WorldError};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The file system. Relative paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
@@ -8,6 +8,11 @@ pub struct FileWorld;
 impl World for FileWorld {
     fn read(&self, path: &Path) -> Result<Vec<u8>, WorldError> {
         std::fs::read(path).map_err(|error| WorldError { reason: reason(&error) })
+    }
+
+    /// Without links; a path without a file is its own.
+    fn identity(&self, path: &Path) -> PathBuf {
+        std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
     }
 }
 

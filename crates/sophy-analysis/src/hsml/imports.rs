@@ -1,15 +1,15 @@
 use super::{HsmlReading, read_hsml};
 use crate::checks::hs0141_import;
 use crate::declarations::{Declarations, Spanned};
-use sophy_diagnostics::{SourceId, Sources, World, WorldError};
+use sophy_diagnostics::{SourceId, Sources, World, WorldError, simplified};
 use std::collections::{HashSet, VecDeque};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Reads a file of HSML and all that it imports, directly or through others, each file once.
 ///
 /// The paths of imports start at the folder of the file that names them; files may import one another. The reading
 /// is that of the file at `path`, but its declarations are those of all files, its own first, and name no imports
-/// any more. Spans tell which file something comes from. A file that cannot be imported is an error where it is
+/// any more. Which paths lead to one file is the world's to say. Spans tell which file something comes from. A file that cannot be imported is an error where it is
 /// named.
 ///
 /// # Errors
@@ -21,7 +21,7 @@ pub fn read_with_imports(
 ) -> Result<HsmlReading, WorldError> {
     let bytes = world.read(path)?;
     let mut all = read_hsml(sources, &path.display().to_string(), &bytes);
-    let mut known = HashSet::from([simplified(path)]);
+    let mut known = HashSet::from([world.identity(path)]);
     let mut pending: VecDeque<(SourceId, Spanned<String>)> =
         imports(&mut all.declarations, all.source).collect();
     while let Some((importing, import)) = pending.pop_front() {
@@ -30,10 +30,11 @@ pub fn read_with_imports(
             continue;
         }
         let folder = Path::new(sources.name(importing)).parent().unwrap_or(Path::new(""));
-        let path = simplified(&folder.join(&import.value));
-        if !known.insert(path.clone()) {
+        let path = folder.join(&import.value);
+        if !known.insert(world.identity(&path)) {
             continue;
         }
+        let path = shortened(&path, world);
         match bytes_of(world, &path) {
             Ok(bytes) => {
                 let mut reading = read_hsml(sources, &path.display().to_string(), &bytes);
@@ -69,19 +70,11 @@ fn merge(all: &mut Declarations, other: Declarations) {
     all.components.extend(components);
 }
 
-/// Without `.` and, where it is clear, `..`: the same file has the same path, by whatever way it is reached.
-fn simplified(path: &Path) -> PathBuf {
-    let mut simple = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir if matches!(simple.components().next_back(), Some(Component::Normal(_))) => {
-                simple.pop();
-            }
-            part => simple.push(part),
-        }
-    }
-    simple
+/// For messages and for what the file imports: `models/b.hsml` rather than `models/parts/../b.hsml`, unless `parts` is a
+/// link to a folder elsewhere.
+fn shortened(path: &Path, world: &dyn World) -> PathBuf {
+    let short = simplified(path);
+    if world.identity(&short) == world.identity(path) { short } else { path.to_owned() }
 }
 
 #[cfg(test)]
@@ -89,7 +82,7 @@ mod tests {
     use super::*;
     use sophy_diagnostics::{MemoryWorld, Style, render};
 
-    fn read(world: &MemoryWorld, path: &str) -> (Vec<String>, Vec<String>, String) {
+    fn read(world: &dyn World, path: &str) -> (Vec<String>, Vec<String>, String) {
         let mut sources = Sources::default();
         let reading = read_with_imports(world, &mut sources, Path::new(path)).expect("the file is there");
         let functions = reading.declarations.functions.iter();
@@ -110,6 +103,46 @@ mod tests {
         assert_eq!(functions, ["f of models/main.hsml", "g of models/parts/a.hsml", "h of models/b.hsml"]);
         assert_eq!(messages, Vec::<String>::new());
         assert_eq!(main, "models/main.hsml");
+    }
+
+    #[test]
+    fn a_path_through_a_folder_and_back_is_the_same_file() {
+        let world = MemoryWorld::default()
+            .with("./models/main.hsml", "import \"a/../b.hsml\"; import \"b.hsml\"; function f(x) = x;")
+            .with("models/b.hsml", "import \"../models/./main.hsml\"; function h(x) = x;");
+        let (functions, messages, _) = read(&world, "models/a/../main.hsml");
+        assert_eq!(functions, ["f of models/a/../main.hsml", "h of models/b.hsml"]);
+        assert_eq!(messages, Vec::<String>::new());
+    }
+
+    /// A world that knows more of its folders: `lib` is a link to `parts/old`, and this folder is `models`.
+    struct Linked(MemoryWorld);
+
+    impl World for Linked {
+        fn read(&self, path: &Path) -> Result<Vec<u8>, WorldError> {
+            self.0.read(&self.identity(path))
+        }
+
+        fn identity(&self, path: &Path) -> PathBuf {
+            let path = path.to_string_lossy().replace("lib/", "parts/old/").replace("../models/", "");
+            simplified(Path::new(&path))
+        }
+    }
+
+    #[test]
+    fn links_and_the_working_directory_are_the_worlds_to_follow() {
+        let world = Linked(
+            MemoryWorld::default()
+                .with(
+                    "main.hsml",
+                    "import \"lib/../b.hsml\"; import \"../models/main.hsml\"; function f(x) = x;",
+                )
+                .with("parts/b.hsml", "import \"../main.hsml\"; import \"./b.hsml\"; function g(x) = x;")
+                .with("b.hsml", "function h(x) = x;"),
+        );
+        let (functions, messages, _) = read(&world, "main.hsml");
+        assert_eq!(functions, ["f of main.hsml", "g of lib/../b.hsml"]);
+        assert_eq!(messages, Vec::<String>::new());
     }
 
     #[test]
