@@ -256,6 +256,7 @@ impl Builder<'_, '_> {
                 actors.push((group, section.priority, actions, span));
             }
         }
+        let mut conditions: HashMap<usize, NodeId> = HashMap::new();
         for rule in rules.iter().filter(|rule| rule.delay.is_none()) {
             // Events are received one by one, after all conditions have been answered.
             let on_event = self.graph.dependencies([rule.condition]).into_iter().any(|leaf| match leaf {
@@ -266,6 +267,7 @@ impl Builder<'_, '_> {
                 continue;
             }
             group += 1;
+            conditions.insert(group, rule.condition);
             actors.push((
                 group,
                 rule.priority,
@@ -286,6 +288,11 @@ impl Builder<'_, '_> {
                             && a.level != b.level
                         {
                             continue; // two levels of one quantity are not reached together
+                        }
+                        if let [Some(&a), Some(&b)] = [other, group].map(|g| conditions.get(&g))
+                            && self.never_meet(a, b)
+                        {
+                            continue;
                         }
                         let same_constant =
                             right == assignment.right && self.graph.as_number(right).is_some();

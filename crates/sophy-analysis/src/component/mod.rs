@@ -6,6 +6,7 @@ mod builder;
 mod checks;
 mod discrete;
 mod equations;
+mod exclusion;
 mod matching;
 mod parameters;
 mod statements;
