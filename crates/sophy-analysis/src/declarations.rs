@@ -561,7 +561,7 @@ pub enum ConnectionItem {
 /// `cell[i].out[2]`, or `out` of the composite itself.
 #[derive(Clone, Debug)]
 pub struct PortText {
-    /// Names with their indices, separated by points.
+    /// Names with their indices, separated by points; none if it is not written.
     pub parts: Vec<(Spanned<String>, Vec<ExpressionText>)>,
     /// Where it stands as a whole.
     pub span: Span,

@@ -14,16 +14,37 @@ pub(crate) fn diagnostic(
     receiver: Option<ComponentKind>,
 ) -> Diagnostic {
     let (a, b) = (from.0.kind, to.0.kind);
-    let message = format!("`{}` is a `{}`, `{}` is a `{}`", from.0.name, a.name(), to.0.name, b.name());
-    let error = Diagnostic::error(CODE, from.1, format!("{message}: they cannot be connected"))
-        .label_main(a.name())
-        .label(to.1, b.name());
-    match (a, b) {
+    let message = differ((&from.0.name, &to.0.name), (a, b));
+    let error = Diagnostic::error(CODE, from.1, message).label_main(a.name()).label(to.1, b.name());
+    with_way_out(error, from.0, to.0, receiver)
+}
+
+/// An entry of a composition matrix connects two ports, whose full names are `written`.
+pub(crate) fn in_matrix(
+    matrix: Span,
+    written: (&str, &str),
+    from: &Port,
+    to: &Port,
+    receiver: Option<ComponentKind>,
+) -> Diagnostic {
+    let error = Diagnostic::error(CODE, matrix, differ(written, (from.kind, to.kind)))
+        .label(from.span, from.kind.name())
+        .label(to.span, to.kind.name());
+    with_way_out(error, from, to, receiver)
+}
+
+fn differ(names: (&str, &str), kinds: (PortType, PortType)) -> String {
+    let ((from, to), (a, b)) = (names, (kinds.0.name(), kinds.1.name()));
+    format!("`{from}` is a `{a}`, `{to}` is a `{b}`: they cannot be connected")
+}
+
+fn with_way_out(error: Diagnostic, from: &Port, to: &Port, receiver: Option<ComponentKind>) -> Diagnostic {
+    match (from.kind, to.kind) {
         (PortType::Signal, PortType::Held(Quantity::Real)) => {
             let what = receiver.map_or("a composite", kind_with_article);
             error.help(format!(
                 "declare `{}` as `signal`: only a discrete-time component samples a signal, and this is {what}",
-                to.0.name
+                to.name
             ))
         }
         (PortType::Held(Quantity::Integer), PortType::Held(Quantity::Real) | PortType::Signal) => {

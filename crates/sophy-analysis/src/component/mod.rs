@@ -16,7 +16,7 @@ mod variables;
 pub(crate) use automaton::{BuiltLocation, BuiltTransition};
 pub(crate) use builder::{Builder, Given, GivenValue, Shared};
 pub(crate) use checks::Stray;
-pub(crate) use equations::Definition;
+pub(crate) use equations::{Definition, shape_of_part};
 pub(crate) use types::{PortType, TYPES};
 pub(crate) use variables::{Interface, Port};
 

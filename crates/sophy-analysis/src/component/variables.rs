@@ -43,6 +43,14 @@ pub(crate) struct Interface {
     pub(crate) exported: Vec<(VariableId, VariableId)>,
 }
 
+impl Interface {
+    /// Whether a port has this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        let mut events = self.input_events.iter().chain(&self.output_events).chain(&self.synchronised);
+        self.ports.iter().any(|port| port.name == name) || events.any(|event| event.name == name)
+    }
+}
+
 /// A variable with all that is known of it.
 struct Declared<'d> {
     name: &'d Spanned<String>,

@@ -1,10 +1,11 @@
-use super::connections::connect;
+use super::connections::{Wiring, connect};
 use super::library::{Entry, Library};
 use super::members::{Members, expand_members};
 use crate::checks::{hs0127_declaration_for_another_kind, hs0414_not_connected};
 use crate::component::{Builder, Built, Given, Interface, Shared};
 use crate::declarations::{ComponentDeclaration, ComponentKind, Direction};
 use sophy_ir::{Body, Composite};
+use std::collections::HashSet;
 use std::rc::Rc;
 
 /// Analyses a composite: its members, each with its class, and what connects them.
@@ -26,9 +27,9 @@ pub(crate) fn build_composite<'a>(
         }
     }
     let members = expand_members(&mut builder, library);
-    let composite = connect(&mut builder, &members, &interface);
+    let Wiring { composite, incomplete, .. } = connect(&mut builder, &members, &interface);
     // A connection or member with a mistake feeds nothing: what it was to feed would be complained about, too.
-    if builder.shared.findings.error_count() == errors && !members.broken {
+    if builder.shared.findings.error_count() == errors && !members.broken && !incomplete {
         check_connected(&mut builder, &members, &interface, &composite);
     }
     builder.check_uses();
@@ -44,7 +45,7 @@ fn check_connected(
     interface: &Interface,
     composite: &Composite,
 ) {
-    let fed: std::collections::HashSet<sophy_ir::Port> = composite.wires.iter().map(|wire| wire.to).collect();
+    let fed: HashSet<sophy_ir::Port> = composite.wires.iter().map(|wire| wire.to).collect();
     let is_fed = |member: Option<u32>, copy: u32, variable: u32| {
         fed.contains(&sophy_ir::Port { member, copy, variable: sophy_ir::VariableId(variable) })
     };
@@ -62,9 +63,40 @@ fn check_connected(
             }
         }
     }
+    check_events_connected(builder, members, interface, composite);
     for port in interface.ports.iter().filter(|port| port.direction == Direction::Output) {
         if (0..port.shape.len() as u32).any(|k| !is_fed(None, 0, port.first.0 + k)) {
             builder.report(hs0414_not_connected::output(&port.name, port.span));
+        }
+    }
+}
+
+/// The same of events: without a sender they never happen, which may be meant.
+fn check_events_connected(
+    builder: &mut Builder<'_, '_>,
+    members: &Members,
+    interface: &Interface,
+    composite: &Composite,
+) {
+    let sent: HashSet<(Option<u32>, u32, &str)> = composite
+        .event_wires
+        .iter()
+        .map(|wire| (wire.to.member, wire.to.copy, wire.to.label.as_str()))
+        .collect();
+    for (position, member) in members.list.iter().enumerate() {
+        let copies: u32 = member.extents.iter().product();
+        for event in &members.entries[position].interface.input_events {
+            let is_open = |&copy: &u32| !sent.contains(&(Some(position as u32), copy, event.name.as_str()));
+            if let (Some(copy), Some(declared)) = ((0..copies).find(is_open), event.span.or(member.span)) {
+                let name = members.full_name(position, copy);
+                let span = member.span.unwrap_or(declared);
+                builder.report(hs0414_not_connected::event_input(&name, &event.name, span, declared));
+            }
+        }
+    }
+    for event in &interface.output_events {
+        if let Some(span) = event.span.filter(|_| !sent.contains(&(None, 0, event.name.as_str()))) {
+            builder.report(hs0414_not_connected::event_output(&event.name, span));
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::checks::{
     hs0410_unknown_port, hs0411_connection_direction, hs0412_connected_units, hs0413_driven_twice,
     hs0415_connected_types, hs0416_connected_shapes, hs0418_connected_ranges,
 };
-use crate::component::{Builder, Interface, Port, PortType};
+use crate::component::{Builder, Interface, Port, PortType, shape_of_part};
 use crate::declarations::{ComponentKind, ConnectionItem, Direction, PortText};
 use crate::lower::Shape;
 use sophy_diagnostics::Span;
@@ -24,7 +24,7 @@ pub(crate) struct End {
 #[derive(Clone, Debug)]
 pub(crate) enum EndKind {
     /// Elements of a port.
-    Values { port: Port, positions: Vec<usize>, shape: Shape },
+    Values { port: Box<Port>, positions: Vec<usize>, shape: Shape },
     /// An event label.
     Event { label: String, direction: Direction },
 }
@@ -36,14 +36,29 @@ pub(crate) struct Wiring<'m> {
     pub(crate) composite: Composite,
     /// Where each port is fed.
     pub(crate) fed: HashMap<sophy_ir::Port, Span>,
+    /// Whether an end of a connection is not written, or not known.
+    pub(crate) incomplete: bool,
+    /// Where events are joined.
+    joined: HashMap<(EventEnd, EventEnd), Span>,
 }
 
 /// The connections of a composite, loops run.
-pub(crate) fn connect(builder: &mut Builder<'_, '_>, members: &Members, interface: &Interface) -> Composite {
+pub(crate) fn connect<'m>(
+    builder: &mut Builder<'_, '_>,
+    members: &'m Members,
+    interface: &'m Interface,
+) -> Wiring<'m> {
     let declaration = builder.declaration;
-    let mut wiring = Wiring { members, interface, composite: Composite::default(), fed: HashMap::new() };
+    let mut wiring = Wiring {
+        members,
+        interface,
+        composite: Composite::default(),
+        fed: HashMap::new(),
+        incomplete: false,
+        joined: HashMap::new(),
+    };
     connect_items(builder, &declaration.connections, &mut wiring);
-    wiring.composite
+    wiring
 }
 
 fn connect_items<'a>(builder: &mut Builder<'_, 'a>, items: &'a [ConnectionItem], wiring: &mut Wiring<'_>) {
@@ -51,7 +66,7 @@ fn connect_items<'a>(builder: &mut Builder<'_, 'a>, items: &'a [ConnectionItem],
         match item {
             ConnectionItem::Connect { from, to } => connect_one(builder, from, to, wiring),
             ConnectionItem::Compose { span, members, matrix } => {
-                compose(builder, *span, members, matrix, wiring);
+                wiring.incomplete |= compose(builder, *span, members, matrix, wiring).is_none();
             }
             ConnectionItem::For(turns) => {
                 builder.each_turn(turns, |builder| connect_items(builder, &turns.items, wiring));
@@ -67,7 +82,10 @@ fn connect_one<'a>(
     wiring: &mut Wiring<'_>,
 ) {
     let (source, target) = (end(builder, from, wiring), end(builder, to, wiring));
-    let (Some(source), Some(target)) = (source, target) else { return };
+    let (Some(source), Some(target)) = (source, target) else {
+        wiring.incomplete = true;
+        return;
+    };
     if !directions(builder, &source, &target) {
         return;
     }
@@ -78,20 +96,18 @@ fn connect_one<'a>(
             builder.report(hs0415_connected_types::event_and_label(source.span, target.span));
         }
         (EndKind::Event { label: from_label, direction }, EndKind::Event { label, direction: other }) => {
-            wiring.composite.event_wires.push(EventWire {
-                from: EventEnd {
-                    member: source.member.map(|m| m as u32),
-                    copy: source.copy,
-                    label: from_label.clone(),
-                },
-                to: EventEnd {
-                    member: target.member.map(|m| m as u32),
-                    copy: target.copy,
-                    label: label.clone(),
-                },
+            let end = |end: &End, label: &str| EventEnd {
+                member: end.member.map(|member| member as u32),
+                copy: end.copy,
+                label: label.to_owned(),
+            };
+            let wire = EventWire {
+                from: end(&source, from_label),
+                to: end(&target, label),
                 synchronised: *direction == Direction::Synchronised && *other == Direction::Synchronised,
                 span: Some(source.span.to(target.span)),
-            });
+            };
+            add_event_wire(builder, wire, target.span, wiring);
         }
         (EndKind::Values { .. }, EndKind::Values { .. }) => values(builder, &source, &target, wiring),
         _ => builder.report(hs0415_connected_types::event_and_value(source.span, target.span)),
@@ -134,6 +150,7 @@ fn values(builder: &mut Builder<'_, '_>, source: &End, target: &End, wiring: &mu
     else {
         return;
     };
+    let (from, to): (&Port, &Port) = (from, to);
     let receiver = target.member.and_then(|member| wiring.members.kinds.get(member).copied());
     if !suits(from.kind, to.kind, receiver) {
         builder.report(hs0415_connected_types::diagnostic((from, source.span), (to, target.span), receiver));
@@ -173,6 +190,25 @@ pub(crate) fn add_wire(builder: &mut Builder<'_, '_>, wire: Wire, at: Span, wiri
     wiring.composite.wires.push(wire);
 }
 
+/// Adds an event wire unless it is there. Several sources may send to one input.
+fn add_event_wire(builder: &mut Builder<'_, '_>, wire: EventWire, at: Span, wiring: &mut Wiring<'_>) {
+    let there = (wire.from.clone(), wire.to.clone());
+    let back = (wire.to.clone(), wire.from.clone());
+    let first = wiring.joined.get(&there).or_else(|| wiring.joined.get(&back).filter(|_| wire.synchronised));
+    if let Some(&first) = first {
+        let name = |end: &EventEnd| match end.member {
+            None => end.label.clone(),
+            Some(member) => {
+                format!("{}.{}", wiring.members.full_name(member as usize, end.copy), end.label)
+            }
+        };
+        builder.report(hs0413_driven_twice::event(&name(&wire.from), &name(&wire.to), first, at));
+        return;
+    }
+    wiring.joined.insert(there, at);
+    wiring.composite.event_wires.push(wire);
+}
+
 fn port_name(port: sophy_ir::Port, wiring: &Wiring<'_>) -> String {
     let element = |ports: &[Port]| {
         let found = ports
@@ -190,7 +226,7 @@ fn port_name(port: sophy_ir::Port, wiring: &Wiring<'_>) -> String {
 }
 
 /// Whether a port of one type can feed one of another; `receiver` is the kind of component fed.
-fn suits(from: PortType, to: PortType, receiver: Option<ComponentKind>) -> bool {
+pub(crate) fn suits(from: PortType, to: PortType, receiver: Option<ComponentKind>) -> bool {
     use PortType::{Held, Signal};
     match (from, to) {
         (Signal, Held(Quantity::Real)) => receiver == Some(ComponentKind::Dtc),
@@ -214,6 +250,10 @@ pub(crate) fn end<'a>(
             let (position, copy) = member_copy(builder, member, member_indices, wiring)?;
             let entry = &wiring.members.entries[position];
             let component = || Some(wiring.members.list[position].name.clone());
+            // What a component with mistakes does not have may be among them.
+            if entry.class.is_none() && !entry.interface.has(&name.value) {
+                return None;
+            }
             let what = port_end(builder, name, indices, &entry.interface, &component, Some(position))?;
             Some(End { member: Some(position), copy, what, span: written.span })
         }
@@ -294,14 +334,8 @@ fn port_end<'a>(
     }
     if let Some(port) = interface.ports.iter().find(|port| port.name == name.value) {
         let positions = builder.positions(name, indices, port.shape)?;
-        let shape = if indices.is_empty() {
-            port.shape
-        } else if positions.len() == 1 {
-            Shape::Scalar
-        } else {
-            Shape::Vector(positions.len())
-        };
-        return Some(EndKind::Values { port: port.clone(), positions, shape });
+        let shape = shape_of_part(port.shape, indices.len());
+        return Some(EndKind::Values { port: Box::new(port.clone()), positions, shape });
     }
     let events = [
         (&interface.input_events, Direction::Input),

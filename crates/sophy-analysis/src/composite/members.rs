@@ -21,9 +21,9 @@ pub(crate) struct Members {
     pub(crate) kinds: Vec<ComponentKind>,
     /// All forms of components that they are, those with mistakes, too.
     pub(crate) used: BTreeMap<usize, Rc<Entry>>,
-    /// Whether one has mistakes.
-    pub(crate) broken: bool,
     by_name: HashMap<String, Named>,
+    /// Whether some member, entered or not, has no class: then the composite has none either.
+    pub(crate) broken: bool,
 }
 
 /// What a member name stands for.
@@ -134,8 +134,13 @@ fn add<'a>(
     let given = values.iter().map(|(name, _, value)| (name.value.clone(), given(builder, value))).collect();
     let entry = library.entry(builder.shared, component, &given);
     members.used.entry(entry.number).or_insert_with(|| Rc::clone(&entry));
-    let class = entry.class?;
-    let parameters = parameters(builder, &entry, &library.classes[class.0 as usize], written, values);
+    // A component with mistakes still has ports: what connects them is checked, and nothing comes of it.
+    let class = entry.class.unwrap_or_default();
+    members.broken |= entry.class.is_none();
+    let parameters = match entry.class.and_then(|class| library.classes.get(class.0 as usize)) {
+        Some(class) => parameters(builder, &entry, class, written, values),
+        None => Vec::new(),
+    };
     enter(builder, name, &element, members)?;
     members.list.push(Member {
         name: name.value.clone(),

@@ -36,7 +36,7 @@ impl Reader<'_> {
         let mut connections = Vec::new();
         for item in items {
             match item {
-                ConnectionsItem::Connection(view) => connections.extend(self.connection(&view)),
+                ConnectionsItem::Connection(view) => connections.push(self.connection(&view)),
                 ConnectionsItem::Compose(view) => connections.push(self.composition(&view)),
                 ConnectionsItem::ForLoop(view) => {
                     let items = self.connections(view.items());
@@ -47,10 +47,13 @@ impl Reader<'_> {
         connections
     }
 
-    /// `None` if one end is missing, which the parser has said.
-    fn connection(&mut self, connection: &Connection) -> Option<ConnectionItem> {
-        let (from, to) = (self.port(&connection.source()?), self.port(&connection.target()?));
-        Some(ConnectionItem::Connect { from, to })
+    /// An end that is missing, which the parser has said, has no parts.
+    fn connection(&mut self, connection: &Connection) -> ConnectionItem {
+        let end = |port: Option<Port>| match port {
+            Some(port) => self.port(&port),
+            None => PortText { parts: Vec::new(), span: self.keyword(connection) },
+        };
+        ConnectionItem::Connect { from: end(connection.source()), to: end(connection.target()) }
     }
 
     fn composition(&mut self, compose: &Compose) -> ConnectionItem {
