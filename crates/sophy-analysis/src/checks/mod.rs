@@ -54,6 +54,7 @@ pub(crate) mod hs0145_constrained;
 pub(crate) mod hs0146_assigned_by_two;
 pub(crate) mod hs0147_read_before_assigned;
 pub(crate) mod hs0148_of_another_location;
+pub(crate) mod hs0149_name_with_a_bracket;
 pub(crate) mod hs0201_unknown_function;
 pub(crate) mod hs0202_wrong_number_of_arguments;
 pub(crate) mod hs0203_number_as_condition;
@@ -146,6 +147,7 @@ pub const CODES: &[(Code, &str)] = &[
     (hs0146_assigned_by_two::CODE, "a variable may be assigned twice at one instant"),
     (hs0147_read_before_assigned::CODE, "a local is read before it is assigned"),
     (hs0148_of_another_location::CODE, "a name that another location declares for itself"),
+    (hs0149_name_with_a_bracket::CODE, "a name contains a bracket or a point"),
     (hs0201_unknown_function::CODE, "something is called that is not a function"),
     (hs0202_wrong_number_of_arguments::CODE, "a function is called with the wrong number of arguments"),
     (hs0203_number_as_condition::CODE, "a number stands where a condition is needed"),

@@ -1,6 +1,7 @@
 use super::builder::{Builder, GivenValue};
 use crate::checks::{
-    hs0107_declared_twice, hs0108_defined_twice, hs0123_knob_without_value, hs0301_circular_constants,
+    hs0107_declared_twice, hs0108_defined_twice, hs0123_knob_without_value, hs0149_name_with_a_bracket,
+    hs0301_circular_constants,
 };
 use crate::declarations::{Dialect, ExpressionText, KnobDeclaration, ParameterDeclaration, Spanned};
 use crate::dependency_order::dependency_order;
@@ -76,6 +77,9 @@ impl<'a> Builder<'_, 'a> {
     pub(crate) fn declare(&mut self, name: &Spanned<String>, symbol: Symbol<'a>) -> bool {
         if name.value.is_empty() {
             return false;
+        }
+        if let Some(found) = hs0149_name_with_a_bracket::find(name) {
+            self.report(found);
         }
         let (kind, again) = (symbol.kind, symbol.span);
         let taken = self.symbols.declare(&name.value, symbol).map(|first| (first.kind, first.span));
