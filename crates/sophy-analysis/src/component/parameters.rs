@@ -3,7 +3,9 @@ use crate::checks::{
     hs0107_declared_twice, hs0108_defined_twice, hs0123_knob_without_value, hs0149_name_with_a_bracket,
     hs0301_circular_constants,
 };
-use crate::declarations::{Dialect, ExpressionText, KnobDeclaration, ParameterDeclaration, Spanned};
+use crate::declarations::{
+    Dialect, ExpressionText, KnobDeclaration, ParameterDeclaration, RangeText, Spanned,
+};
 use crate::dependency_order::dependency_order;
 use crate::lower::{
     Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, VariableSymbol, Varies, names_in,
@@ -49,6 +51,28 @@ impl<'a> Builder<'_, 'a> {
         }
         for index in sorted.order {
             self.lower_parameter(&parameters[index]);
+        }
+        for parameter in &parameters {
+            self.bound_parameter(parameter);
+        }
+    }
+
+    /// The range of a knob may read any parameter, so it is looked at when all are known.
+    fn bound_parameter(&mut self, parameter: &Parameter<'a>) {
+        let Some(range) = parameter.knob.and_then(|knob| knob.range.as_ref()) else { return };
+        let symbol = self.symbols.declared(&parameter.name.value);
+        let Some(SymbolValue::Variable(symbol)) = symbol.map(|symbol| &symbol.value) else { return };
+        let ids = symbol.first.0..symbol.first.0 + symbol.shape.len() as u32;
+        let known: Vec<f64> =
+            ids.clone().filter_map(|id| self.values.get(&VariableId(id)).copied()).collect();
+        let bounds = self.range_of(Some(range)).bounds;
+        for id in ids {
+            if let Some(variable) = self.variables.get_mut(id as usize) {
+                variable.range = bounds;
+            }
+        }
+        if let (Some(written), false) = (parameter.value, known.is_empty()) {
+            self.check_in_range(&parameter.name.value, range, &known, written.value.span);
         }
     }
 
@@ -168,7 +192,10 @@ impl<'a> Builder<'_, 'a> {
         let measured = self.measured_in(unit, &value);
         let quantity = if value.quantity == Quantity::Integer { Quantity::Real } else { value.quantity };
         let value = self.as_stored(value);
-        let range = self.range_of(parameter.knob.and_then(|knob| knob.range.as_ref()));
+        // Texts read nothing.
+        let texts = parameter.knob.and_then(|knob| knob.range.as_ref());
+        let texts = texts.filter(|range| matches!(range, RangeText::Set(_)));
+        let choices = self.range_of(texts).choices;
         let first = VariableId(self.variables.len() as u32);
         let (shape, nodes): (Shape, Vec<Option<NodeId>>) = match self.given.get(&name.value) {
             None => (value.shape, value.elements.as_slice().iter().copied().map(Some).collect()),
@@ -195,18 +222,14 @@ impl<'a> Builder<'_, 'a> {
                 name: format!("{}{}", name.value, shape.suffix(k)),
                 kind: VariableKind::Parameter { value: node, knob: parameter.knob.is_some() },
                 quantity,
-                range: range.bounds,
-                choices: range.choices.clone(),
+                range: None,
+                choices: choices.clone(),
                 viewed: false,
                 structural: false,
                 unit: self.unit_label(&name.value, unit),
                 documentation: documentation.clone(),
                 span: Some(name.span),
             });
-        }
-        if let (Some(range), false) = (parameter.knob.and_then(|knob| knob.range.as_ref()), known.is_empty())
-        {
-            self.check_in_range(&name.value, range, &known, written.value.span);
         }
         let all_known = known.len() == nodes.len();
         let symbol = VariableSymbol {
@@ -215,7 +238,7 @@ impl<'a> Builder<'_, 'a> {
             quantity,
             measured,
             varies: Varies::Parameters,
-            choices: Rc::from(range.choices),
+            choices: Rc::from(choices),
             known: all_known.then(|| Rc::from(known)),
         };
         let kind = self.parameter_kind(parameter);
