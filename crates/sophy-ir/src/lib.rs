@@ -44,6 +44,6 @@ pub use model::{Interpolation, Model, Quantity, Table};
 pub use pieces::Pieces;
 pub use system::{
     Algebraic, Automaton, Awaited, Event, EventInput, Feature, FlatEmission, FlatLocation, FlatReset,
-    FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Receiver, Role, Row, Stair, State, System,
-    Truth, VerifyError, Watch,
+    FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Range, Receiver, Role, Row, Stair, State,
+    System, Truth, VerifyError, Watch,
 };

@@ -45,6 +45,8 @@ pub struct System {
     pub stairs: Vec<Stair>,
     /// What is watched though no rate or guard reads it: rows that read the stairs of tables which outputs read.
     pub guarded: Vec<Row>,
+    /// Declared ranges, those of parameters before those of states, each in the order of what they are of.
+    pub ranges: Vec<Range>,
     /// Assignments at the start, after declared values, in an order in which each follows what it reads.
     pub initial: Vec<FlatReset>,
     /// Input events of the whole that members receive under other names.
@@ -53,6 +55,15 @@ pub struct System {
     pub texts: Vec<String>,
     /// What was checked but cannot be run yet; a run of a system that awaits something is refused.
     pub awaits: Vec<Awaited>,
+}
+
+/// Least and greatest value of a parameter or state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Range {
+    /// The parameter or state.
+    pub of: Leaf,
+    /// Both belong to the range; over parameters.
+    pub bounds: [NodeId; 2],
 }
 
 /// A part of a model that this version checks but cannot run.

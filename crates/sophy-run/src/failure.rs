@@ -69,6 +69,19 @@ impl Failure {
         })
     }
 
+    /// A transition gave a state a value that it cannot have.
+    pub(crate) fn of_range(system: &System, transition: TransitionIndex, time: f64, sentence: &str) -> Self {
+        let by = &system.transitions[transition.position()];
+        Failure {
+            time,
+            message: format!("{sentence}, at t = {time} s"),
+            code: Code("SR0011"),
+            span: by.span,
+            notes: vec![format!("{} gives it this value", transition_text(system, transition))],
+            helps: vec!["limit the value, `sat(x, lo, hi)`, or change the range".to_owned()],
+        }
+    }
+
     pub(crate) fn new(error: &HybridError, system: &System, parameters: &[f64], engine: &dyn Engine) -> Self {
         let reporter = Reporter { system, parameters, engine };
         match error {
@@ -81,6 +94,13 @@ impl Failure {
             }
         }
     }
+}
+
+fn transition_text(system: &System, transition: TransitionIndex) -> String {
+    let t = &system.transitions[transition.position()];
+    let automaton = &system.automata[t.automaton.position()];
+    let name = |l: LocationIndex| &automaton.locations[l.position()].name;
+    format!("`{}` ({} → {})", t.name, name(t.source), name(t.destination))
 }
 
 struct Reporter<'a> {
@@ -260,10 +280,7 @@ impl Reporter<'_> {
     }
 
     fn transition(&self, transition: TransitionIndex) -> String {
-        let t = &self.system.transitions[transition.position()];
-        let automaton = &self.system.automata[t.automaton.position()];
-        let name = |l: LocationIndex| &automaton.locations[l.position()].name;
-        format!("`{}` ({} → {})", t.name, name(t.source), name(t.destination))
+        transition_text(self.system, transition)
     }
 
     fn location_of(&self, state: StateIndex) -> LocationIndex {

@@ -2,8 +2,9 @@
 //! sections; for a mode that nothing initialises the sign of its flag.
 
 use crate::experiment::{Experiment, ExperimentError};
+use crate::ranges::Ranges;
 use crate::tables::outside;
-use sophy_field::LocationIndex;
+use sophy_field::{LocationIndex, StateIndex};
 use sophy_ir::{Leaf, NodeId, System, Value, evaluate};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -17,6 +18,7 @@ pub(crate) fn initial_states(
     parameters: &[f64],
     inputs: &[[f64; 2]],
     locations: &[LocationIndex],
+    ranges: &Ranges,
 ) -> Result<Vec<f64>, Vec<ExperimentError>> {
     let given: HashMap<&str, f64> =
         experiment.initial.iter().map(|(name, value)| (name.as_str(), *value)).collect();
@@ -46,7 +48,15 @@ pub(crate) fn initial_states(
     for (position, (state, value)) in system.states.iter().zip(sides).enumerate() {
         let name = &state.name;
         match value {
-            Some(value) if value.is_finite() => values.push(value),
+            Some(value) if value.is_finite() => {
+                values.push(value);
+                if let Some(sentence) = ranges.refuse(system, StateIndex::new(position), value) {
+                    errors.push(ExperimentError::new(
+                        format!("initial.{name}"),
+                        format!("{sentence}, at the start"),
+                    ));
+                }
+            }
             Some(value) => {
                 let reasons = start.outside(position);
                 let reason = if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
@@ -61,7 +71,7 @@ pub(crate) fn initial_states(
                     format!("state `{name}` has no initial value"),
                 )
                 .help(format!(
-                    "give one in the experiment (`[initial] \"{name}\" = 0`, `--initial {name}=0`) or in the model (`<hint hintname=\"initial {name}\">0</hint>`)"
+                    "give one in the experiment (`[initial] \"{name}\" = 0`, `--initial {name}=0`) or in the model (`state {name} := 0;`, in SOPHY XML `<hint hintname=\"initial {name}\">0</hint>`)"
                 )),
             ),
         }

@@ -10,6 +10,7 @@ mod failure;
 mod grid;
 mod initial;
 mod inputs;
+mod ranges;
 mod recorder;
 mod run;
 mod simulate;

@@ -3,6 +3,7 @@ use crate::experiment::{Experiment, ExperimentError};
 use crate::failure::Failure;
 use crate::initial::initial_states;
 use crate::inputs::Inputs;
+use crate::ranges::Ranges;
 use sophy_codegen::{Compiled, compile};
 use sophy_field::{
     AutomatonIndex, Changes, Engine, InputIndex, Journal, LocationIndex, SourceIndex, Start, StateIndex,
@@ -24,6 +25,7 @@ pub struct Run {
     engine: Box<dyn Engine>,
     control: Control,
     inputs: Inputs,
+    ranges: Ranges,
     changes: Changes,
     /// What happened since it was last drained.
     pub journal: Journal,
@@ -78,10 +80,11 @@ impl Run {
         let configured = configure(&system, experiment)?;
         let compiled = compile(&system, &configured.knobs, configured.order)
             .map_err(|error| vec![ExperimentError::new("knobs", error.to_string())])?;
+        let ranges = Ranges::new(&system, &compiled.parameters)?;
         let mut inputs = Inputs::new(configured.signals, configured.events);
         let lines = inputs.begin(experiment.start);
         let locations = &configured.locations;
-        let states = initial_states(&system, experiment, &compiled.parameters, &lines, locations)?;
+        let states = initial_states(&system, experiment, &compiled.parameters, &lines, locations, &ranges)?;
         let equations = &compiled.equations;
         let settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
         let engine: Box<dyn Engine> = match configured.order {
@@ -94,6 +97,7 @@ impl Run {
             engine,
             control,
             inputs,
+            ranges,
             changes: Changes::default(),
             journal: Journal::wanted(),
             taken: Vec::new(),
@@ -121,10 +125,9 @@ impl Run {
                 &mut run.journal,
             )
         });
-        match begun.and_then(|()| run.react(experiment.start)) {
-            Ok(_) => Ok(run),
-            Err(error) => Err(StartError::Failure(Box::new(run.failure(&error)))),
-        }
+        begun.map_err(|error| StartError::Failure(Box::new(run.failure(&error))))?;
+        run.react(experiment.start).map_err(StartError::Failure)?;
+        Ok(run)
     }
 
     /// Goes on to `until` (s, inclusive), at most for about `budget` steps.
@@ -134,21 +137,23 @@ impl Run {
     pub fn advance(&mut self, until: f64, budget: u64) -> Result<Pause, Box<Failure>> {
         match self.go_on(until.max(self.time), budget.max(1)) {
             Ok(pause) => Ok(pause),
-            Err(error) => {
-                let failure = self.failure(&error);
+            Err(failure) => {
                 // What is in the journal reaches to the failure; what follows does not exist.
                 self.time = failure.time;
-                Err(Box::new(failure))
+                Err(failure)
             }
         }
     }
 
-    fn go_on(&mut self, until: f64, budget: u64) -> Result<Pause, HybridError> {
+    fn go_on(&mut self, until: f64, budget: u64) -> Result<Pause, Box<Failure>> {
         let compiled = Arc::clone(&self.compiled);
         loop {
             let scheduled = self.inputs.next_time();
             let horizon = if scheduled < until { scheduled } else { until };
-            let stop = self.engine.advance(&compiled.equations, horizon, budget, &mut self.journal)?;
+            let stop = self
+                .engine
+                .advance(&compiled.equations, horizon, budget, &mut self.journal)
+                .map_err(|fault| Box::new(self.failure(&fault.into())))?;
             let instant = match stop {
                 Stop::Crossed(time) => time,
                 Stop::Horizon if scheduled <= until => scheduled,
@@ -172,7 +177,7 @@ impl Run {
     }
 
     /// Takes the micro-steps of an instant, inputs due first.
-    fn react(&mut self, instant: f64) -> Result<Option<Accumulation>, HybridError> {
+    fn react(&mut self, instant: f64) -> Result<Option<Accumulation>, Box<Failure>> {
         let compiled = Arc::clone(&self.compiled);
         self.changes.clear();
         for event in self.inputs.due(instant, &mut self.changes) {
@@ -181,8 +186,9 @@ impl Run {
         self.react_to(instant, &compiled)
     }
 
-    fn react_to(&mut self, instant: f64, compiled: &Compiled) -> Result<Option<Accumulation>, HybridError> {
-        self.control.react(
+    fn react_to(&mut self, instant: f64, compiled: &Compiled) -> Result<Option<Accumulation>, Box<Failure>> {
+        let before = self.taken.len();
+        let answer = self.control.react(
             self.engine.as_mut(),
             &compiled.equations,
             &compiled.logic,
@@ -190,7 +196,24 @@ impl Run {
             &self.changes,
             &mut self.journal,
             &mut self.taken,
-        )
+        );
+        let answer = answer.map_err(|error| Box::new(self.failure(&error)))?;
+        match self.range_left(instant, before) {
+            Some(failure) => Err(Box::new(failure)),
+            None => Ok(answer),
+        }
+    }
+
+    /// Whether a state that was assigned by the transitions taken since `before` is outside of its range.
+    fn range_left(&self, time: f64, before: usize) -> Option<Failure> {
+        self.taken.iter().skip(before).find_map(|taken| {
+            let resets = &self.system.transitions.get(taken.transition.position())?.resets;
+            resets.iter().find_map(|reset| {
+                let value = self.engine.value(SourceIndex(reset.state.0), time);
+                let sentence = self.ranges.refuse(&self.system, reset.state, value)?;
+                Some(Failure::of_range(&self.system, taken.transition, time, &sentence))
+            })
+        })
     }
 
     /// Changes states from outside at the present time (an estimator's update), as one micro-step: guards are
@@ -206,7 +229,7 @@ impl Run {
         self.changes.clear();
         self.changes.states.extend_from_slice(values);
         let time = self.time;
-        self.react_to(time, &compiled).map_err(|error| Box::new(self.failure(&error)))
+        self.react_to(time, &compiled)
     }
 
     /// The state of the run at the present time, as a value to return to.

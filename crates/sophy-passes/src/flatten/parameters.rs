@@ -5,7 +5,9 @@ use super::facts::Becomes;
 use super::tree::prefixed;
 use super::{FlattenError, Flattener};
 use sophy_field::ParameterIndex;
-use sophy_ir::{Body, Leaf, NodeId, Origin, Parameter, VariableId, VariableKind};
+use sophy_ir::{
+    Body, ClassIndex, Leaf, Node, NodeId, Origin, Parameter, Range, Variable, VariableId, VariableKind,
+};
 
 impl Flattener<'_> {
     pub(super) fn parameters(&mut self) -> Result<(), FlattenError> {
@@ -78,7 +80,21 @@ impl Flattener<'_> {
                 }
             }
         }
+        for (position, variable) in class.variables.iter().enumerate() {
+            if let Some(leaf) = self.parameters[at.base as usize + position] {
+                self.range(at.class, place, variable, leaf);
+            }
+        }
         Ok(())
+    }
+
+    /// Keeps the range of what has become a leaf, if one was declared.
+    pub(super) fn range(&mut self, class: ClassIndex, place: u32, variable: &Variable, leaf: NodeId) {
+        if let (Some(bounds), Node::Leaf(of)) = (variable.range, self.system.graph.node(leaf)) {
+            let context = Context { class, place, instance: None, location: None };
+            let bounds = bounds.map(|bound| self.number(context, bound));
+            self.system.ranges.push(Range { of, bounds });
+        }
     }
 
     /// Parameters that a value reads and that have no index yet.

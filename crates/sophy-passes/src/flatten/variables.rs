@@ -50,7 +50,11 @@ impl Flattener<'_> {
                     }
                     _ => continue,
                 };
-                self.nodes[slot] = Some(self.system.graph.leaf(leaf));
+                let node = self.system.graph.leaf(leaf);
+                self.nodes[slot] = Some(node);
+                if let Leaf::State(_) = leaf {
+                    self.range(at.class, at.place, variable, node);
+                }
             }
         }
     }
