@@ -4,7 +4,7 @@ use crate::floor::hopper::run as floor;
 use crate::measure::{Measured, alternate};
 use sophy_field::StateIndex;
 use sophy_passes::lower;
-use sophy_run::{Experiment, Pause, Quantum, QuantumRule, Run};
+use sophy_run::{Backend, Experiment, Pause, Quantum, QuantumRule, Run};
 use sophy_testkit::{Reference, problems::Hopper};
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ const QUANTUM: f64 = 1e-3;
 const TRANSITIONS: usize = 3460;
 const REPETITIONS: usize = 15;
 
-/// Ours (interpreter, nothing recorded, start included) beside the floor; both must give the same bits.
+/// Ours (nothing recorded, start included, native code made there) beside the floor; both must give the same bits.
 pub fn bench() -> Vec<Measured> {
     let model = Hopper::TAU40.model();
     let system = Arc::new(lower(&model).expect("the hopper is sound"));
@@ -22,13 +22,18 @@ pub fn bench() -> Vec<Measured> {
         quanta: vec![QuantumRule { pattern: "*".to_owned(), quantum: Quantum::absolute(QUANTUM) }],
         ..Experiment::default()
     };
-    let ours = || {
-        let mut run = Run::new(Arc::clone(&system), &experiment).expect("it starts");
+    let ours = |backend| {
+        let mut run =
+            Run::new(Arc::clone(&system), &Experiment { backend, ..experiment.clone() }).expect("it starts");
         run.journal.wanted = false;
         assert_eq!(run.advance(STOP, u64::MAX).expect("it goes on"), Pause::Reached);
         run
     };
-    let (times, hops, run) = alternate(REPETITIONS, || floor(Hopper::TAU40, STOP, QUANTUM), ours);
+    let (times, hops, run) =
+        alternate(REPETITIONS, || floor(Hopper::TAU40, STOP, QUANTUM), || ours(Backend::Interpreter));
+    let (native, _, run_native) =
+        alternate(REPETITIONS, || floor(Hopper::TAU40, STOP, QUANTUM), || ours(Backend::Native));
+    assert!(run_native.is_native());
 
     let engine = run.statistics().engine;
     assert_eq!((engine.steps, engine.refreshes), (hops.steps, hops.refreshes), "steps and refreshes");
@@ -52,5 +57,9 @@ pub fn bench() -> Vec<Measured> {
         error,
         ratio,
     };
-    vec![row("floor", times.first, 1.0), row("interpreter", times.second, times.ratio)]
+    vec![
+        row("floor", times.first, 1.0),
+        row("interpreter", times.second, times.ratio),
+        row("native", native.second, native.ratio),
+    ]
 }

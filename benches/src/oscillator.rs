@@ -4,7 +4,7 @@ use crate::floor::oscillator::run as floor;
 use crate::measure::{Measured, alternate};
 use sophy_field::StateIndex;
 use sophy_passes::lower;
-use sophy_run::{Experiment, Pause, Quantum, QuantumRule, Run};
+use sophy_run::{Backend, Experiment, Pause, Quantum, QuantumRule, Run};
 use sophy_testkit::{Reference, problems::oscillator};
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ const STOP: f64 = 200.0;
 const QUANTUM: f64 = 1e-5;
 const REPETITIONS: usize = 51;
 
-/// Ours (interpreter, nothing recorded, start included) beside the floor; both must give the same bits.
+/// Ours (nothing recorded, start included, native code made there) beside the floor; both must give the same bits.
 pub fn bench() -> Vec<Measured> {
     let system = Arc::new(lower(&oscillator()).expect("the oscillator is sound"));
     let experiment = Experiment {
@@ -20,13 +20,16 @@ pub fn bench() -> Vec<Measured> {
         quanta: vec![QuantumRule { pattern: "*".to_owned(), quantum: Quantum::absolute(QUANTUM) }],
         ..Experiment::default()
     };
-    let ours = || {
-        let mut run = Run::new(Arc::clone(&system), &experiment).expect("it starts");
+    let ours = |backend| {
+        let mut run =
+            Run::new(Arc::clone(&system), &Experiment { backend, ..experiment.clone() }).expect("it starts");
         run.journal.wanted = false;
         assert_eq!(run.advance(STOP, u64::MAX).expect("it goes on"), Pause::Reached);
         run
     };
-    let (times, motion, run) = alternate(REPETITIONS, || floor(STOP, QUANTUM), ours);
+    let (times, motion, run) = alternate(REPETITIONS, || floor(STOP, QUANTUM), || ours(Backend::Interpreter));
+    let (native, _, run_native) = alternate(REPETITIONS, || floor(STOP, QUANTUM), || ours(Backend::Native));
+    assert!(run_native.is_native());
 
     assert_eq!(run.statistics().engine.steps, motion.steps, "steps");
     let end = [0, 1].map(|state| run.state(StateIndex::new(state)).to_bits());
@@ -47,5 +50,9 @@ pub fn bench() -> Vec<Measured> {
         error,
         ratio,
     };
-    vec![row("floor", times.first, 1.0), row("interpreter", times.second, times.ratio)]
+    vec![
+        row("floor", times.first, 1.0),
+        row("interpreter", times.second, times.ratio),
+        row("native", native.second, native.ratio),
+    ]
 }

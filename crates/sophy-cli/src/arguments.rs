@@ -136,8 +136,8 @@ pub(crate) struct Run {
     /// Relative accuracy of states without a quantum [default: 1e-4]
     #[arg(long, value_name = "V", value_parser = number, help_heading = "Engine")]
     pub(crate) tolerance: Option<f64>,
-    /// How equations are evaluated
-    #[arg(long, value_name = "NAME", value_parser = ["interpreter"], default_value = "interpreter", help_heading = "Engine")]
+    /// How equations are evaluated; the numbers do not depend on it. `auto` changes to native code in a long run
+    #[arg(long, value_name = "NAME", value_parser = sophy::Backend::NAMES, default_value = "auto", help_heading = "Engine")]
     pub(crate) backend: String,
     /// Seed of everything random [default: 0]
     #[arg(long, value_name = "N", help_heading = "Engine")]

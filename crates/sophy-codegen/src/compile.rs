@@ -10,6 +10,7 @@ use crate::watches::Watching;
 use sophy_field::{Call, Equations, Formula, InputIndex, Logic, ParameterIndex, StairCode, StateIndex};
 use sophy_ir::{Evaluator, Leaf, Stair, System, Value};
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// Callable equations and transitions of one system with one set of parameter values.
 #[derive(Clone, Debug)]
@@ -105,6 +106,7 @@ pub fn compile_sharing(
         run,
         enclose,
         programs: Vec::new(),
+        kernels: OnceLock::new(),
         operands: Vec::new(),
         calls: Vec::new(),
         blocks: Vec::new(),

@@ -38,7 +38,7 @@ fn store<T: Copy, const N: usize>(memory: &mut [T], at: u32, value: [T; N]) {
     memory[at..at + N].copy_from_slice(&value);
 }
 
-fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memory: &mut [T]) {
+pub(crate) fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memory: &mut [T]) {
     // Behind a scalar stands something too: what is copied with it is never read.
     let mut to = program.gather;
     for &operand in operands {
@@ -98,7 +98,8 @@ fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memor
             Code::PowJJ => jet::power(jet!(a), jet!(b)),
             Code::Min | Code::Max => {
                 let (x, y) = (jet!(a), jet!(b));
-                if x[0].less(y[0]) == (instruction.code == Code::Min) { x } else { y }
+                let (low, high) = if instruction.code == Code::Min { (x, y) } else { (y, x) };
+                T::choose(x[0].less(y[0]), || low, || high)
             }
             Code::Atan2 => jet::atan2(jet!(a), jet!(b)),
             Code::Sin => jet::sine_cosine(jet!(a), false).0,
@@ -119,7 +120,7 @@ fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memor
             Code::Sqrt => jet::sqrt(jet!(a)),
             Code::Abs => {
                 let x = jet!(a);
-                if x[0].less(T::of(0.0)) { x.map(|c| -c) } else { x }
+                T::choose(x[0].less(T::of(0.0)), || x.map(|c| -c), || x)
             }
             Code::Sign => constant(jet!(a)[0].sign()),
             Code::Floor => constant(jet!(a)[0].floor()),
@@ -131,7 +132,7 @@ fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memor
             }
             Code::LessEqual => {
                 let (x, y) = (scalar!(a), scalar!(b));
-                memory[to as usize] = truth(x.less(y) || x.equal(y));
+                memory[to as usize] = T::choose(x.less(y), || [T::of(1.0)], || [truth(x.equal(y))])[0];
                 continue;
             }
             Code::Equal => {
@@ -147,19 +148,21 @@ fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memor
                 continue;
             }
             Code::Not => {
-                memory[to as usize] = truth(!is_true(scalar!(a)));
+                memory[to as usize] = T::choose(is_zero(scalar!(a)), || [T::of(1.0)], || [T::of(0.0)])[0];
                 continue;
             }
             Code::And => {
-                memory[to as usize] = truth(is_true(scalar!(a)) && is_true(scalar!(b)));
+                memory[to as usize] =
+                    T::choose(is_zero(scalar!(a)), || [T::of(0.0)], || [as_truth(scalar!(b))])[0];
                 continue;
             }
             Code::Or => {
-                memory[to as usize] = truth(is_true(scalar!(a)) || is_true(scalar!(b)));
+                memory[to as usize] =
+                    T::choose(is_zero(scalar!(a)), || [as_truth(scalar!(b))], || [T::of(1.0)])[0];
                 continue;
             }
             Code::JumpIfZero => {
-                if !is_true(scalar!(a)) {
+                if T::decided(is_zero(scalar!(a))) {
                     next = b as usize;
                 }
                 continue;
@@ -204,11 +207,17 @@ fn constant<T: Scalar, const N: usize>(value: T) -> [T; N] {
 }
 
 #[inline]
-fn truth<T: Scalar>(value: bool) -> T {
-    T::of(if value { 1.0 } else { 0.0 })
+fn truth<T: Scalar>(value: T::Truth) -> T {
+    T::choose(value, || [T::of(1.0)], || [T::of(0.0)])[0]
 }
 
 #[inline]
-fn is_true<T: Scalar>(value: T) -> bool {
-    !value.equal(T::of(0.0))
+fn is_zero<T: Scalar>(value: T) -> T::Truth {
+    value.equal(T::of(0.0))
+}
+
+/// 0 for 0, else 1.
+#[inline]
+fn as_truth<T: Scalar>(value: T) -> T {
+    T::choose(is_zero(value), || [T::of(0.0)], || [T::of(1.0)])[0]
 }

@@ -99,8 +99,9 @@ pub(crate) fn sqrt<T: Scalar, const N: usize>(a: Jet<T, N>) -> Jet<T, N> {
             rest = rest - c[i] * c[k - i];
         }
         // √0 that stays 0 is 0, not 0/0.
-        let still = c[0].equal(T::of(0.0)) && rest.equal(T::of(0.0));
-        c[k] = if still { rest } else { rest / (T::of(2.0) * c[0]) };
+        let divided = || [rest / (T::of(2.0) * c[0])];
+        let at_zero = || T::choose(rest.equal(T::of(0.0)), || [rest], divided);
+        [c[k]] = T::choose(c[0].equal(T::of(0.0)), at_zero, divided);
     }
     c
 }
@@ -253,27 +254,38 @@ pub(crate) fn atan2<T: Scalar, const N: usize>(y: Jet<T, N>, x: Jet<T, N>) -> Je
 
 /// aᵖ with a constant exponent: a·c′ = p·a′·c; at a = 0, where that divides by zero, Taylor's formula.
 pub(crate) fn power_constant<T: Scalar, const N: usize>(a: Jet<T, N>, p: T) -> Jet<T, N> {
+    let value = a[0].pow(p);
+    T::choose(a[0].equal(T::of(0.0)), || power_at_zero(a, p, value), || power_elsewhere(a, p, value))
+}
+
+fn power_elsewhere<T: Scalar, const N: usize>(a: Jet<T, N>, p: T, value: T) -> Jet<T, N> {
     let mut c = zeros();
-    c[0] = a[0].pow(p);
-    if a[0].equal(T::of(0.0)) {
-        let slope = p * a[0].pow(p - T::of(1.0));
-        let factor = p * (p - T::of(1.0)) / T::of(2.0);
-        let flat = factor.equal(T::of(0.0));
-        let curvature = if flat { factor } else { factor * a[0].pow(p - T::of(2.0)) };
-        for k in 1..N {
-            // An infinite slope times nothing is nothing.
-            let times = |factor: T, x: T| if x.equal(T::of(0.0)) { x } else { factor * x };
-            let bend = if k == 2 { times(curvature, a[1].square()) } else { T::of(0.0) };
-            c[k] = times(slope, a[k]) + bend;
-        }
-        return c;
-    }
+    c[0] = value;
     for k in 1..N {
         let mut sum = T::of(0.0);
         for i in 1..=k {
             sum = sum + (p * number(i) - number(k - i)) * a[i] * c[k - i];
         }
         c[k] = sum / (number::<T>(k) * a[0]);
+    }
+    c
+}
+
+fn power_at_zero<T: Scalar, const N: usize>(a: Jet<T, N>, p: T, value: T) -> Jet<T, N> {
+    // An infinite slope times nothing is nothing.
+    let times = |factor: T, x: T| T::choose(x.equal(T::of(0.0)), || [x], || [factor * x])[0];
+    let mut c = zeros();
+    c[0] = value;
+    let slope = p * a[0].pow(p - T::of(1.0));
+    for k in 1..N {
+        let mut bend = T::of(0.0);
+        if k == 2 {
+            let factor = p * (p - T::of(1.0)) / T::of(2.0);
+            let curved = || [factor * a[0].pow(p - T::of(2.0))];
+            let [curvature] = T::choose(factor.equal(T::of(0.0)), || [factor], curved);
+            bend = times(curvature, a[1].square());
+        }
+        c[k] = times(slope, a[k]) + bend;
     }
     c
 }

@@ -13,6 +13,7 @@ mod interpreter;
 mod jet;
 mod logic;
 mod memory;
+mod native;
 mod programs;
 mod scalar;
 mod shapes;
@@ -20,4 +21,5 @@ mod watches;
 
 pub use compile::{CompileError, Compiled, Parameters, compile, compile_sharing};
 pub use interpreter::{enclose, run};
+pub use native::{NoNativeCode, native};
 pub use shapes::Sharing;

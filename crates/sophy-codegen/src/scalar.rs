@@ -34,10 +34,41 @@ pub(crate) trait Scalar:
     fn locate(self, knots: &[Self]) -> Self;
     /// The number at this position of a column.
     fn lookup(self, numbers: &[Self]) -> Self;
+    /// What a comparison says: known at once, or only when the code that is being written runs.
+    type Truth: Copy;
     /// Whether `self < other` at the point that decides a switch.
-    fn less(self, other: Self) -> bool;
+    fn less(self, other: Self) -> Self::Truth;
     /// Whether both are the same number.
-    fn equal(self, other: Self) -> bool;
+    fn equal(self, other: Self) -> Self::Truth;
+    /// One of two results, of which only the one chosen need be computed.
+    fn choose<const N: usize>(
+        truth: Self::Truth,
+        yes: impl FnOnce() -> [Self; N],
+        no: impl FnOnce() -> [Self; N],
+    ) -> [Self; N];
+    /// Whether a program jumps; known wherever programs with jumps are run.
+    fn decided(truth: Self::Truth) -> bool;
+}
+
+/// [`Scalar::choose`] where comparisons are known at once.
+macro_rules! decided_at_once {
+    () => {
+        type Truth = bool;
+
+        #[inline]
+        fn choose<const N: usize>(
+            truth: bool,
+            yes: impl FnOnce() -> [Self; N],
+            no: impl FnOnce() -> [Self; N],
+        ) -> [Self; N] {
+            if truth { yes() } else { no() }
+        }
+
+        #[inline]
+        fn decided(truth: bool) -> bool {
+            truth
+        }
+    };
 }
 
 macro_rules! through_libm {
@@ -51,6 +82,7 @@ macro_rules! through_libm {
 
 #[allow(clippy::float_cmp)]
 impl Scalar for f64 {
+    decided_at_once!();
     through_libm!(exp, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, atanh);
 
     #[inline]
@@ -124,6 +156,7 @@ macro_rules! through_interval {
 }
 
 impl Scalar for Interval {
+    decided_at_once!();
     through_interval!(
         square, sqrt, exp, ln, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh,
         floor, sign

@@ -1,8 +1,10 @@
 use crate::{
-    AutomatonIndex, Call, Enclose, LocationIndex, Operand, Program, Run, StateIndex, Table, WatchIndex,
+    AutomatonIndex, Call, Enclose, Kernels, LocationIndex, Operand, Program, Run, StateIndex, Table,
+    WatchIndex,
 };
 use sophy_segment::Interval;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// The callable equations of a flat system: immutable, shared by all runs of a campaign.
 ///
@@ -29,6 +31,9 @@ pub struct Equations {
     pub enclose: Enclose,
     /// All programs.
     pub programs: Vec<Program>,
+    /// Their native code, as soon as there is any: a run may go on while it is made. Whoever changes anything else
+    /// here takes it out.
+    pub kernels: OnceLock<Kernels>,
     /// Operands of shared programs, by range.
     pub operands: Vec<u32>,
     /// Calls that evaluate algebraic variables on the series side: one per location, in a row.
@@ -245,7 +250,16 @@ pub struct Formula {
 impl Equations {
     /// Runs a program on its operands.
     #[inline]
+    #[allow(unsafe_code)]
     pub fn execute(&self, call: &Call, memory: &mut [f64], orders: usize) {
+        let kernel = self.kernels.get().and_then(|kernels| kernels.get(call.program, orders));
+        if let Some(kernel) = kernel
+            && memory.len() == self.layout.length as usize
+        {
+            // SAFETY: `kernels` were made for these equations, and memory has their length.
+            unsafe { kernel(self.operands(call).as_ptr(), memory.as_mut_ptr()) };
+            return;
+        }
         (self.run)(&self.programs[call.program as usize], self.operands(call), memory, orders);
     }
 

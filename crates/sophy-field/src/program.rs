@@ -1,7 +1,10 @@
 //! Straight-line programs over Taylor coefficients: what the equations of a system are compiled to.
 
 use sophy_segment::Interval;
+use std::any::Any;
+use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// One operation on memory. Operands and result are offsets: a *jet* is `width` consecutive numbers (value
 /// and scaled derivatives `x⁽ᵏ⁾/k!`), a *scalar* is one number.
@@ -83,6 +86,57 @@ pub enum Code {
     Store,
 }
 
+/// What an instruction reads at one of its operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reads {
+    /// A jet.
+    Jet,
+    /// A scalar.
+    Scalar,
+    /// Nothing of memory: it is an exponent, a column, a jump target, or unused.
+    Nothing,
+}
+
+impl Code {
+    /// What stands at `a` and at `b`.
+    pub fn reads(self) -> [Reads; 2] {
+        use Reads::{Jet, Nothing, Scalar};
+        match self {
+            Code::AddJJ
+            | Code::SubJJ
+            | Code::MulJJ
+            | Code::DivJJ
+            | Code::PowJJ
+            | Code::Min
+            | Code::Max
+            | Code::Atan2 => [Jet, Jet],
+            Code::AddJS | Code::SubJS | Code::MulJS | Code::DivJS | Code::PowJS => [Jet, Scalar],
+            Code::SubSJ | Code::DivSJ | Code::PowSJ => [Scalar, Jet],
+            Code::Less | Code::LessEqual | Code::Equal | Code::And | Code::Or => [Scalar, Scalar],
+            Code::Not | Code::Spread | Code::Locate | Code::Lookup | Code::JumpIfZero => [Scalar, Nothing],
+            Code::Jump => [Nothing, Nothing],
+            _ => [Jet, Nothing],
+        }
+    }
+
+    /// Whether the result is a jet; else it is a scalar, or there is none.
+    pub fn writes_jet(self) -> bool {
+        !matches!(
+            self,
+            Code::Less
+                | Code::LessEqual
+                | Code::Equal
+                | Code::Locate
+                | Code::Lookup
+                | Code::Not
+                | Code::And
+                | Code::Or
+                | Code::JumpIfZero
+                | Code::Jump
+        )
+    }
+}
+
 /// A program, absolute or shared.
 ///
 /// An *absolute* one names in its instructions the memory it reads. A *shared* one stands for all equations of
@@ -114,6 +168,49 @@ pub type Run = fn(program: &Program, operands: &[u32], memory: &mut [f64], order
 
 /// The same over intervals: every coefficient becomes an enclosure.
 pub type Enclose = fn(program: &Program, operands: &[u32], memory: &mut [Interval], orders: usize);
+
+/// Native code of programs: for each number of coefficients, one function per program that has it.
+///
+/// Programs without it are interpreted; the bits are the same.
+#[derive(Clone)]
+pub struct Kernels {
+    /// By orders − 1, then by program.
+    of: Vec<Vec<Option<Kernel>>>,
+    /// Keeps the machine code alive.
+    _code: Arc<dyn Any + Send + Sync>,
+}
+
+/// Machine code of one program: its operands, and memory.
+pub type Kernel = unsafe extern "C" fn(operands: *const u32, memory: *mut f64);
+
+impl Kernels {
+    /// Kernels by orders − 1 and then by program; `code` is what they live in.
+    ///
+    /// # Safety
+    /// A kernel lives as long as `code`. Run with the operands of any [`Call`] of its program and a memory as long
+    /// as that of the [`Equations`](crate::Equations) they were made for, it reads and writes inside both only.
+    #[allow(unsafe_code)]
+    pub unsafe fn new(of: Vec<Vec<Option<Kernel>>>, code: Arc<dyn Any + Send + Sync>) -> Self {
+        Kernels { of, _code: code }
+    }
+
+    /// The kernel of a program, if it has one.
+    #[inline]
+    pub fn get(&self, program: u32, orders: usize) -> Option<Kernel> {
+        self.of.get(orders - 1)?.get(program as usize).copied().flatten()
+    }
+
+    /// How many kernels there are.
+    pub fn count(&self) -> usize {
+        self.of.iter().flatten().flatten().count()
+    }
+}
+
+impl fmt::Debug for Kernels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Kernels({})", self.count())
+    }
+}
 
 /// Where the result of a formula stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

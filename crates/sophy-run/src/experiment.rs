@@ -1,3 +1,4 @@
+use crate::backend::Backend;
 use sophy_solvers::Quantum;
 
 /// Everything a run needs besides the model. Names are those of the model; `component.name` in a composition.
@@ -11,6 +12,8 @@ pub struct Experiment {
     pub seed: u64,
     /// The engine.
     pub method: Method,
+    /// How equations are evaluated.
+    pub backend: Backend,
     /// Accuracy asked for where no quantum is given: ΔQ = tolerance·max(|x|, 10⁻³ units).
     pub tolerance: f64,
     /// Quanta by name pattern; the last rule that matches a state counts.
@@ -42,6 +45,7 @@ impl Default for Experiment {
             stop: 10.0,
             seed: 0,
             method: Method::Auto,
+            backend: Backend::Auto,
             tolerance: 1e-4,
             quanta: Vec::new(),
             knobs: Vec::new(),

@@ -4,6 +4,7 @@
 //! - [`Run`] is one run: [`Run::advance`] goes on to a time, pausing leaves no trace.
 //! - [`simulate`] runs an experiment to its end and feeds recorders.
 
+mod backend;
 mod configure;
 mod experiment;
 mod failure;
@@ -16,6 +17,7 @@ mod run;
 mod simulate;
 mod tables;
 
+pub use backend::Backend;
 pub use experiment::{AtEnd, Experiment, ExperimentError, Interpolation, Method, QuantumRule, Signal};
 pub use failure::Failure;
 pub use recorder::Recorder;

@@ -1,3 +1,4 @@
+use crate::backend::Evaluation;
 use crate::configure::configure;
 use crate::experiment::{Experiment, ExperimentError};
 use crate::failure::Failure;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 pub struct Run {
     system: Arc<System>,
     compiled: Arc<Compiled>,
+    evaluation: Evaluation,
     engine: Box<dyn Engine>,
     control: Control,
     inputs: Inputs,
@@ -94,6 +96,7 @@ impl Run {
         let control = Control::new(equations, &compiled.logic);
         let mut run = Run {
             system,
+            evaluation: Evaluation::new(experiment.backend, &compiled),
             engine,
             control,
             inputs,
@@ -145,14 +148,16 @@ impl Run {
         }
     }
 
-    fn go_on(&mut self, until: f64, budget: u64) -> Result<Pause, Box<Failure>> {
+    fn go_on(&mut self, until: f64, mut budget: u64) -> Result<Pause, Box<Failure>> {
         let compiled = Arc::clone(&self.compiled);
         loop {
             let scheduled = self.inputs.next_time();
             let horizon = if scheduled < until { scheduled } else { until };
+            self.evaluation.consider(self.engine.statistics().steps, &compiled);
+            let burst = self.evaluation.burst(budget);
             let stop = self
                 .engine
-                .advance(&compiled.equations, horizon, budget, &mut self.journal)
+                .advance(&compiled.equations, horizon, burst, &mut self.journal)
                 .map_err(|fault| Box::new(self.failure(&fault.into())))?;
             let instant = match stop {
                 Stop::Crossed(time) => time,
@@ -160,6 +165,10 @@ impl Run {
                 Stop::Horizon => {
                     self.time = until;
                     return Ok(Pause::Reached);
+                }
+                Stop::Budget(_) if burst < budget => {
+                    budget -= burst;
+                    continue;
                 }
                 Stop::Budget(time) => {
                     self.time = time;
@@ -269,6 +278,11 @@ impl Run {
     /// Its callable equations.
     pub fn compiled(&self) -> &Arc<Compiled> {
         &self.compiled
+    }
+
+    /// Whether equations are evaluated by native code by now.
+    pub fn is_native(&self) -> bool {
+        self.compiled.equations.kernels.get().is_some()
     }
 
     /// x of a state at the present time.

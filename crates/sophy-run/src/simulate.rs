@@ -85,6 +85,8 @@ pub struct Report {
     pub elapsed: Duration,
     /// Work done.
     pub statistics: RunStatistics,
+    /// Whether equations were evaluated by native code at the end.
+    pub native: bool,
     /// Rows recorded.
     pub rows: u64,
 }
@@ -172,6 +174,7 @@ pub fn simulate(
         time: run.time(),
         elapsed: begin.elapsed(),
         statistics: run.statistics(),
+        native: run.is_native(),
         rows: recorder.rows(),
     })
 }

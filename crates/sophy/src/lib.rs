@@ -120,6 +120,6 @@ pub use sophy_record::{
     Column, ColumnKind, EventRecord, Metadata, Row, Schema, Side, Sink, SinkError, Table, Trajectory,
 };
 pub use sophy_run::{
-    AtEnd, Experiment, ExperimentError, Failure, Interpolation, Method, Observer, Outcome, Progress, Quantum,
-    QuantumRule, Report, Signal,
+    AtEnd, Backend, Experiment, ExperimentError, Failure, Interpolation, Method, Observer, Outcome, Progress,
+    Quantum, QuantumRule, Report, Signal,
 };

@@ -1,7 +1,7 @@
 use crate::arguments::{After, Interpolate, Run};
 use crate::command_line::CommandLine;
 use sophy::{
-    AtEnd, Code, Diagnostic, Diagnostics, Interpolation, Method, Quantum, QuantumRule, Setup, Signal,
+    AtEnd, Backend, Code, Diagnostic, Diagnostics, Interpolation, Method, Quantum, QuantumRule, Setup, Signal,
 };
 use std::path::Path;
 
@@ -22,6 +22,7 @@ fn times_and_engine(run: &Run, line: &CommandLine, setup: &mut Setup) {
     experiment.seed = run.seed.unwrap_or(experiment.seed);
     experiment.tolerance = run.tolerance.unwrap_or(experiment.tolerance);
     experiment.method = run.method.as_deref().and_then(Method::named).unwrap_or(experiment.method);
+    experiment.backend = Backend::named(&run.backend).unwrap_or(experiment.backend);
     // What holds for all goes first: the last rule that matches counts.
     let (all, named): (Vec<_>, Vec<_>) = run.quantum.iter().partition(|(pattern, _)| pattern == "*");
     for (pattern, value) in all.into_iter().chain(named) {

@@ -57,9 +57,9 @@ fn report(arguments: &Run, model: &Model, loaded: &Loaded, finished: &Finished, 
     let start = loaded.setup.experiment.start;
     let mut text = summary(model, start, finished);
     if arguments.stats {
-        text.push_str(&statistics(finished, &arguments.backend));
+        text.push_str(&statistics(finished));
     }
-    terminal.remark(&text, &answer(model, start, finished, &arguments.backend));
+    terminal.remark(&text, &answer(model, start, finished));
     match finished.report.outcome {
         Outcome::Reached => Exit::Done,
         Outcome::Interrupted => Exit::Interrupted,
@@ -116,7 +116,7 @@ fn factor(start: f64, finished: &Finished) -> f64 {
     (finished.report.time - start) / finished.report.elapsed.as_secs_f64().max(1e-9)
 }
 
-fn statistics(finished: &Finished, backend: &str) -> String {
+fn statistics(finished: &Finished) -> String {
     let (engine, hybrid) = (&finished.report.statistics.engine, &finished.report.statistics.hybrid);
     let lines = [
         ("integrator steps", engine.steps),
@@ -130,11 +130,15 @@ fn statistics(finished: &Finished, backend: &str) -> String {
     ];
     let lines: String =
         lines.iter().map(|(name, value)| format!("\n  {name:<26}{:>14}", count(*value))).collect();
-    format!("{lines}\n  {:<26}{backend:>14}", "back end")
+    format!("{lines}\n  {:<26}{:>14}", "back end", backend(finished))
+}
+
+fn backend(finished: &Finished) -> &'static str {
+    if finished.report.native { "native" } else { "interpreter" }
 }
 
 /// One object for scripts.
-fn answer(model: &Model, start: f64, finished: &Finished, backend: &str) -> Value {
+fn answer(model: &Model, start: f64, finished: &Finished) -> Value {
     let report = &finished.report;
     let (engine, hybrid) = (&report.statistics.engine, &report.statistics.hybrid);
     let locations: Vec<Value> = finished
@@ -166,7 +170,7 @@ fn answer(model: &Model, start: f64, finished: &Finished, backend: &str) -> Valu
             "crossings": engine.crossings,
             "instants": hybrid.instants,
             "unused_events": hybrid.unused_events,
-            "backend": backend,
+            "backend": backend(finished),
         },
     })
 }

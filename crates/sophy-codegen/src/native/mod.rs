@@ -1,0 +1,178 @@
+//! Programs as machine code, made at run time by Cranelift.
+//!
+//! The arithmetic is the interpreter's own, traced instruction by instruction ([`trace`]), so that both give the
+//! same bits. A program becomes one function for each number of coefficients that is asked of it ([`lower`]); a
+//! shared program serves all its calls.
+
+#![allow(unsafe_code)]
+
+mod functions;
+mod lower;
+#[cfg(test)]
+mod tests;
+mod thunks;
+mod trace;
+
+use cranelift_codegen::ir::{AbiParam, types};
+use cranelift_codegen::settings::{self, Configurable};
+use cranelift_frontend::FunctionBuilderContext;
+use cranelift_jit::{JITBuilder, JITModule};
+use cranelift_module::{FuncId, Module, ModuleError, default_libcall_names};
+use lower::{Wanted, lower};
+use rustc_hash::FxHashSet;
+use sophy_field::{Call, Equations, Formula, Kernel, Kernels, Logic, Operand, Program};
+use std::sync::{Arc, Mutex};
+use thunks::{Thunks, symbols};
+
+/// Programs with more instructions stay interpreted: a function takes time that grows faster than its length.
+const LONGEST: usize = 2000;
+
+/// There is no native code on this machine.
+#[derive(Debug, thiserror::Error)]
+pub enum NoNativeCode {
+    /// No code generator for this processor.
+    #[error("no native code for this processor: {0}")]
+    Processor(&'static str),
+    /// Executable memory was refused, or the code generator failed.
+    #[error("native code cannot be made: {0}")]
+    Module(#[from] Box<ModuleError>),
+    /// Memory is too large to be addressed.
+    #[error("the model is too large for native code")]
+    TooLarge,
+}
+
+/// What keeps the machine code alive; it is never freed while a kernel can be called.
+struct Code(Mutex<Option<JITModule>>);
+
+impl Drop for Code {
+    fn drop(&mut self) {
+        let module = self.0.get_mut().map(Option::take).unwrap_or_default();
+        if let Some(module) = module {
+            // SAFETY: `Kernels` hold this as long as one of their functions can be called.
+            unsafe { module.free_memory() };
+        }
+    }
+}
+
+/// Machine code for the programs of `equations` and `logic`.
+///
+/// # Errors
+/// [`NoNativeCode`]: then everything is interpreted, with the same bits.
+pub fn native(equations: &Equations, logic: &Logic) -> Result<Kernels, NoNativeCode> {
+    if i32::try_from(u64::from(equations.layout.length) * 8).is_err() {
+        return Err(NoNativeCode::TooLarge);
+    }
+    // SAFETY: these are all calls of these programs, and programs stay inside operands and memory.
+    unsafe { compile(&equations.programs, &Asked::of(equations, logic)) }
+}
+
+/// # Safety
+/// Operands are so many as `asked` says; they and what the programs address lie inside of memory.
+unsafe fn compile(programs: &[Program], asked: &Asked) -> Result<Kernels, NoNativeCode> {
+    let mut module = module()?;
+    let (mut context, mut builder) = (module.make_context(), FunctionBuilderContext::new());
+    let mut thunks = Thunks::default();
+    let mut functions: Vec<Vec<Option<FuncId>>> = Vec::new();
+    for (orders, calls) in (1..).zip(&asked.calls) {
+        let mut of = vec![None; programs.len()];
+        for (position, program) in programs.iter().enumerate() {
+            let Some(operands) = calls[position].filter(|_| program.instructions.len() <= LONGEST) else {
+                continue;
+            };
+            let results = &asked.results[position];
+            let wanted = Wanted { program, orders, results, temporaries: program.gather, operands };
+            let pointer = AbiParam::new(types::I64);
+            context.func.signature.params.extend([pointer, pointer]);
+            thunks.begin();
+            lower(&wanted, &mut context.func, &mut builder, &mut module, &mut thunks)?;
+            let function = module.declare_anonymous_function(&context.func.signature).map_err(Box::new)?;
+            module.define_function(function, &mut context).map_err(Box::new)?;
+            module.clear_context(&mut context);
+            of[position] = Some(function);
+        }
+        functions.push(of);
+    }
+    thunks.define(&mut module, &mut context, &mut builder).map_err(Box::new)?;
+    module.finalize_definitions().map_err(Box::new)?;
+    let kernel = |function: FuncId| {
+        let code = module.get_finalized_function(function);
+        // SAFETY: this is the code of a function of this signature.
+        unsafe { std::mem::transmute::<*const u8, Kernel>(code) }
+    };
+    let kernels = functions.into_iter().map(|of| of.into_iter().map(|f| f.map(kernel)).collect()).collect();
+    // SAFETY: `lower` addresses what the interpreter does.
+    Ok(unsafe { Kernels::new(kernels, Arc::new(Code(Mutex::new(Some(module))))) })
+}
+
+fn module() -> Result<JITModule, NoNativeCode> {
+    let mut flags = settings::builder();
+    let verify = if cfg!(debug_assertions) { "true" } else { "false" };
+    for (name, value) in [
+        ("use_colocated_libcalls", "false"),
+        ("is_pic", "false"),
+        ("opt_level", "speed"),
+        ("enable_verifier", verify),
+    ] {
+        flags.set(name, value).map_err(|_| NoNativeCode::Processor("its settings are refused"))?;
+    }
+    let isa = cranelift_native::builder().map_err(NoNativeCode::Processor)?;
+    let isa = isa
+        .finish(settings::Flags::new(flags))
+        .map_err(|_| NoNativeCode::Processor("its settings are refused"))?;
+    let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
+    for (name, address) in symbols() {
+        builder.symbol(name, address);
+    }
+    Ok(JITModule::new(builder))
+}
+
+/// What callers ask of each program.
+struct Asked {
+    /// By orders − 1, then by program: the number of operands, if it is run with so many coefficients.
+    calls: Vec<Vec<Option<u32>>>,
+    /// By program: offsets that are read when it has run.
+    results: Vec<FxHashSet<u32>>,
+}
+
+impl Asked {
+    fn of(equations: &Equations, logic: &Logic) -> Self {
+        let (programs, width) = (equations.programs.len(), equations.layout.width as usize);
+        let mut asked =
+            Asked { calls: vec![vec![None; programs]; width], results: vec![FxHashSet::default(); programs] };
+        for block in &equations.blocks {
+            let orders = if block.bends { width } else { width - 1 };
+            asked.call(&block.call, &[1, orders]);
+            for row in &equations.rows[block.rows.start as usize..block.rows.end as usize] {
+                asked.result(&block.call, row.result, width);
+            }
+        }
+        for call in &equations.calls {
+            asked.call(call, &[1, width]);
+        }
+        let watches = equations.watches.iter().flat_map(|watch| [&watch.formula, &watch.left, &watch.right]);
+        let resets = logic.transitions.iter().flat_map(|transition| {
+            let resets = transition.resets.iter().map(|(_, formula)| formula);
+            resets.chain(transition.emits.iter().filter_map(|emission| emission.when.as_ref()))
+        });
+        for formula in equations.formulas.iter().chain(watches).chain(resets) {
+            let Formula { call, result, .. } = formula;
+            asked.call(call, &[1, width]);
+            asked.result(call, *result, width);
+        }
+        asked
+    }
+
+    fn call(&mut self, call: &Call, orders: &[usize]) {
+        for &orders in orders {
+            self.calls[orders - 1][call.program as usize] = Some(call.operands.end - call.operands.start);
+        }
+    }
+
+    fn result(&mut self, call: &Call, result: Operand, width: usize) {
+        let results = &mut self.results[call.program as usize];
+        match result {
+            Operand::Jet(at) => results.extend(at..at + width as u32),
+            Operand::Scalar(at) => results.extend([at]),
+        }
+    }
+}
