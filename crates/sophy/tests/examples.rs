@@ -1,7 +1,7 @@
 //! Every example runs as it stands and gives what its README promises, compared with reference data.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may panic
 
-use sophy::{FileWorld, Loaded, Simulation, load_experiment, simulate};
+use sophy::{Backend, Experiment, FileWorld, Loaded, Simulation, load_experiment, simulate};
 use sophy_testkit::{Reference, repository};
 
 fn run(experiment: &str) -> Simulation {
@@ -56,4 +56,35 @@ fn the_two_systems_of_chapter_3_follow_their_closed_solutions() {
         assert!(error < bound, "{experiment}: {error:e}");
         assert!(simulation.events.is_empty());
     }
+}
+
+/// What runs in this version, and its bits in native code against those of the interpreter.
+#[test]
+fn native_code_gives_the_same_bits() {
+    let examples = repository().join("examples");
+    let folders = std::fs::read_dir(examples).unwrap().map(|entry| entry.unwrap().path());
+    let files =
+        folders.flat_map(|folder| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()));
+    let mut compared = 0;
+    for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "toml")) {
+        let loaded: Loaded = load_experiment(&FileWorld, &path);
+        let Some(model) = loaded.model else { continue };
+        let simulated = [Backend::Interpreter, Backend::Native].map(|backend| {
+            let experiment =
+                Experiment { backend, record: Some(vec!["*".to_owned()]), ..loaded.setup.experiment.clone() };
+            simulate(&model, &experiment)
+        });
+        let [Ok(interpreted), Ok(native)] = simulated else { continue };
+        assert!(native.report.native && !interpreted.report.native);
+        assert_eq!(interpreted.events, native.events, "{}", path.display());
+        assert_eq!(interpreted.report.statistics, native.report.statistics, "{}", path.display());
+        for name in interpreted.table.schema().columns.iter().map(|column| column.name.clone()) {
+            let bits = |simulation: &Simulation| -> Vec<u64> {
+                simulation.table.real(&name).unwrap_or_default().iter().map(|x| x.to_bits()).collect()
+            };
+            assert_eq!(bits(&interpreted), bits(&native), "{name} of {}", path.display());
+        }
+        compared += 1;
+    }
+    assert!(compared >= 8, "{compared}");
 }
