@@ -78,7 +78,7 @@ fn native_code_gives_the_same_bits() {
         assert!(native.report.native && !interpreted.report.native);
         assert_eq!(interpreted.events, native.events, "{}", path.display());
         assert_eq!(interpreted.report.statistics, native.report.statistics, "{}", path.display());
-        for name in interpreted.table.schema().columns.iter().map(|column| column.name.clone()) {
+        for name in interpreted.table.schema.columns.iter().map(|column| column.name.clone()) {
             let bits = |simulation: &Simulation| -> Vec<u64> {
                 simulation.table.real(&name).unwrap_or_default().iter().map(|x| x.to_bits()).collect()
             };
