@@ -30,7 +30,9 @@ impl Ranges {
                 Leaf::Parameter(i) => {
                     let Some(parameter) = system.parameters.get(i.position()) else { continue };
                     let name = &parameter.name;
-                    if let Some(sentence) = sentence(name, value(i.position()), bounds) {
+                    if let Some(sentence) =
+                        sentence(name, value(i.position()), bounds, parameter.unit.as_deref())
+                    {
                         errors.push(
                             ExperimentError::new(format!("knobs.{name}"), sentence)
                                 .help("change the value, or the range in the model"),
@@ -45,7 +47,7 @@ impl Ranges {
 
     /// What is wrong with a value of a state.
     pub(crate) fn refuse(&self, system: &System, state: StateIndex, value: f64) -> Option<String> {
-        let State { name, choices, .. } = system.states.get(state.position())?;
+        let State { name, choices, unit, .. } = system.states.get(state.position())?;
         if !choices.is_empty() {
             let text = |number: usize| system.texts.get(number).map_or("", String::as_str);
             if choices.iter().any(|&choice| choice as f64 == value) {
@@ -56,12 +58,13 @@ impl Ranges {
             return Some(format!("`{name}` is \"{value}\", which is none of {{{}}}", known.join(", ")));
         }
         let found = self.0.binary_search_by_key(&state, |(state, _)| *state).ok()?;
-        sentence(name, value, self.0.get(found)?.1)
+        sentence(name, value, self.0.get(found)?.1, unit.as_deref())
     }
 }
 
 /// That a value is outside; what is not a number has messages of its own.
-fn sentence(name: &str, value: f64, [low, high]: [f64; 2]) -> Option<String> {
+fn sentence(name: &str, value: f64, [low, high]: [f64; 2], unit: Option<&str>) -> Option<String> {
     let outside = value < low || value > high;
-    outside.then(|| format!("`{name}` is {value}, outside its range ({low}, {high})"))
+    let unit = unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+    outside.then(|| format!("`{name}` is {value}{unit}, outside its range ({low}, {high}){unit}"))
 }

@@ -8,11 +8,11 @@ use std::path::Path;
 const GEARBOX: &str = "\
 CTC Gearbox is
 interface
-  knob(pull, (0.5, most));
+  knob(pull, (0.5, most), \"m/s2\");
 end interface;
 body
   declarations
-    state speed in (0, 3) := 0;
+    state speed in (0, 3) := 0 \"m/s\";
     mode gear : integer in (1, 3) := 1;
     mode feel : string in {\"calm\", \"wild\"} := \"calm\";
   end declarations;
@@ -56,14 +56,14 @@ fn a_knob_outside_its_range_is_refused() {
     let set = |value: f64| move |e: &mut Experiment| e.knobs.push(("pull".to_owned(), value));
     run(1.0, set(0.5)).unwrap();
     run(1.0, set(2.0)).unwrap();
-    assert!(refused(set(0.25)).contains("`pull` is 0.25, outside its range (0.5, 2)"));
-    assert!(refused(set(2.5)).contains("`pull` is 2.5, outside its range (0.5, 2)"));
+    assert!(refused(set(0.25)).contains("`pull` is 0.25 m/s2, outside its range (0.5, 2) m/s2"));
+    assert!(refused(set(2.5)).contains("`pull` is 2.5 m/s2, outside its range (0.5, 2) m/s2"));
 }
 
 #[test]
 fn an_initial_value_outside_its_range_is_refused() {
     let set = |e: &mut Experiment| e.initial.push(("speed".to_owned(), -1.0));
-    assert!(refused(set).contains("`speed` is -1, outside its range (0, 3), at the start"));
+    assert!(refused(set).contains("`speed` is -1 m/s, outside its range (0, 3) m/s, at the start"));
 }
 
 #[test]
