@@ -135,6 +135,9 @@ fn power(p: &mut Parser<'_>, start: Checkpoint) {
     p.finish_node();
 }
 
+/// So many comparisons in a row are written out in a message.
+const MOST_COMPARISONS: usize = 8;
+
 /// `a < b`; `a < b < c` is refused, but read to its end. The first operand starts at byte `left`.
 fn comparison(p: &mut Parser<'_>, start: Checkpoint, left: usize) {
     p.start_at(start, SyntaxKind::Comparison);
@@ -142,7 +145,9 @@ fn comparison(p: &mut Parser<'_>, start: Checkpoint, left: usize) {
     let mut parts = Vec::new();
     let mut operators = Vec::new();
     while infix(p.current()) == Some(Level::Comparison) {
-        operators.push(p.range());
+        if operators.len() < MOST_COMPARISONS {
+            operators.push(p.range());
+        }
         p.bump();
         let next = p.range().start;
         if operators.len() == 1 {
@@ -150,11 +155,16 @@ fn comparison(p: &mut Parser<'_>, start: Checkpoint, left: usize) {
         } else {
             p.quietly(|p| operation(p, Level::Sum));
         }
-        let end = p.previous().map_or(next, |token| token.range().end);
-        parts.push(p.text_of(operand..end.max(operand)));
+        if parts.len() < MOST_COMPARISONS {
+            let end = p.previous().map_or(next, |token| token.range().end);
+            parts.push(p.text_of(operand..end.max(operand)));
+        }
         operand = next;
     }
     if let [first, second, ..] = operators.as_slice() {
+        if parts.len() == MOST_COMPARISONS {
+            parts.push("…");
+        }
         p.error(
             SyntaxError::new(codes::CHAINED_COMPARISON, second.clone(), "comparisons cannot be chained")
                 .related(first.clone(), "the first comparison")
