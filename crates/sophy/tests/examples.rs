@@ -70,8 +70,14 @@ fn native_code_gives_the_same_bits() {
         let loaded: Loaded = load_experiment(&FileWorld, &path);
         let Some(model) = loaded.model else { continue };
         let simulated = [Backend::Interpreter, Backend::Native].map(|backend| {
-            let experiment =
-                Experiment { backend, record: Some(vec!["*".to_owned()]), ..loaded.setup.experiment.clone() };
+            // A short part of each is enough: every equation is used.
+            let Experiment { start, stop, .. } = loaded.setup.experiment;
+            let experiment = Experiment {
+                backend,
+                stop: start + 0.02 * (stop - start),
+                record: Some(vec!["*".to_owned()]),
+                ..loaded.setup.experiment.clone()
+            };
             simulate(&model, &experiment)
         });
         let [Ok(interpreted), Ok(native)] = simulated else { continue };

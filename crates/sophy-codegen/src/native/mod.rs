@@ -92,7 +92,7 @@ unsafe fn compile(programs: &[Program], asked: &Asked) -> Result<Kernels, NoNati
         }
         functions.push(of);
     }
-    thunks.define(&mut module, &mut context, &mut builder).map_err(Box::new)?;
+    thunks.define(&mut module, &mut context, &mut builder)?;
     module.finalize_definitions().map_err(Box::new)?;
     let kernel = |function: FuncId| {
         let code = module.get_finalized_function(function);

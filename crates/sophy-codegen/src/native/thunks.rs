@@ -5,7 +5,7 @@ use cranelift_codegen::Context;
 use cranelift_codegen::ir::{self, AbiParam, FuncRef, InstBuilder, types};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::JITModule;
-use cranelift_module::{FuncId, Linkage, Module, ModuleResult};
+use cranelift_module::{FuncId, Linkage, Module, ModuleError};
 use rustc_hash::FxHashMap;
 
 /// All that native code may call, for the linker.
@@ -36,7 +36,7 @@ impl Thunks {
         arguments: &[ir::Type],
         module: &mut JITModule,
         function: &mut ir::Function,
-    ) -> ModuleResult<FuncRef> {
+    ) -> Result<FuncRef, Box<ModuleError>> {
         if let Some(&known) = self.known.get(name) {
             return Ok(known);
         }
@@ -57,7 +57,7 @@ impl Thunks {
         module: &mut JITModule,
         context: &mut Context,
         builder: &mut FunctionBuilderContext,
-    ) -> ModuleResult<()> {
+    ) -> Result<(), Box<ModuleError>> {
         let target = module.target_config();
         for (name, (thunk, signature)) in &self.of {
             let imported = module.declare_function(name, Linkage::Import, signature)?;
