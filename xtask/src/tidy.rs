@@ -106,7 +106,9 @@ fn unsafe_code_says_why_it_is_sound() {
         for (number, line) in lines.iter().enumerate() {
             if without_comment(line).split_whitespace().any(|word| word == "unsafe") {
                 let before = &lines[number.saturating_sub(4)..number];
-                let said = before.iter().any(|line| line.trim_start().starts_with("// SAFETY:"));
+                // A block says why it is sound; a function or its type, what it asks of its caller.
+                let why = ["// SAFETY:", "/// # Safety"];
+                let said = before.iter().any(|line| why.iter().any(|why| line.trim_start().starts_with(why)));
                 assert!(said, "{}:{}: {line}", path.display(), number + 1);
             }
         }

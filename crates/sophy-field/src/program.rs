@@ -181,6 +181,9 @@ pub struct Kernels {
 }
 
 /// Machine code of one program: its operands, and memory.
+///
+/// # Safety
+/// As [`Kernels::new`] says.
 pub type Kernel = unsafe extern "C" fn(operands: *const u32, memory: *mut f64);
 
 impl Kernels {

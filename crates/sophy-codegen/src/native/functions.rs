@@ -36,12 +36,18 @@ thunks! {
 }
 
 /// The position of `x` among the knots of a column, which is its length and then its knots.
+///
+/// # Safety
+/// As [`numbers`].
 unsafe extern "C" fn locate(column: *const f64, x: f64) -> f64 {
     // SAFETY: as this function's.
     arithmetic::locate(unsafe { numbers(column) }, x)
 }
 
 /// The number at position `x` of a column.
+///
+/// # Safety
+/// As [`numbers`].
 unsafe extern "C" fn lookup(column: *const f64, x: f64) -> f64 {
     // SAFETY: as this function's.
     arithmetic::lookup(unsafe { numbers(column) }, x)
@@ -67,6 +73,7 @@ impl OfColumn {
     pub(super) const ALL: [Self; 2] = [Self::Locate, Self::Lookup];
 
     pub(super) fn symbol(self) -> Symbol {
+        // SAFETY: a type; nothing is called here.
         let (name, function): (_, unsafe extern "C" fn(*const f64, f64) -> f64) = match self {
             OfColumn::Locate => ("sophy_locate", locate),
             OfColumn::Lookup => ("sophy_lookup", lookup),
