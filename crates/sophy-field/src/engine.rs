@@ -202,4 +202,6 @@ pub struct Statistics {
     pub predictions: u64,
     /// Sign changes located.
     pub crossings: u64,
+    /// Enclosures of conditions that are not affine, over stretches of time.
+    pub enclosures: u64,
 }

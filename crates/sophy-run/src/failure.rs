@@ -143,10 +143,10 @@ impl Reporter<'_> {
                     format!("it cannot be decided whether `{text}` crosses zero at t = {time} s"),
                 );
                 failure.span = self.watch_span(watch);
-                failure.notes.push("the quantity is zero to rounding over an interval of time".to_owned());
+                failure.notes.push("large numbers cancel in it: what is left is less than their rounding".to_owned());
                 failure.notes.push(self.values(self.watch_sources(watch), time));
                 failure.helps.push(
-                    "write the condition with a margin (`> 1e-9` instead of `> 0`), or simplify it"
+                    "write it so that nothing cancels, or with a margin (`> 1e-9` instead of `> 0`)"
                         .to_owned(),
                 );
                 failure

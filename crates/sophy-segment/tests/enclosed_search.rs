@@ -288,8 +288,10 @@ fn a_zero_at_the_joint_of_two_windows() {
 fn what_cannot_be_decided_is_said() {
     // zero to rounding, everywhere
     let cancelled = |t: Jet| (t + Jet::constant(0.1)).sin() - (t + Jet::constant(0.1)).sin();
-    assert_eq!(search(cancelled, 0.0, 1.0, decided(Sign::Positive)), Search::Undecided(0.0));
-    assert_eq!(search(cancelled, 0.0, 1.0, decided(Sign::Zero)), Search::Undecided(0.0));
+    for sign in [Sign::Positive, Sign::Zero] {
+        let found = search(cancelled, 0.0, 1.0, decided(sign));
+        assert!(matches!(found, Search::Blurred(since, until) if since == 0.0 && until > 0.1), "{found:?}");
+    }
     // not defined
     let undefined = |_: Jet| Jet([Interval::ENTIRE; 3]);
     assert_eq!(search(undefined, 0.0, 1.0, decided(Sign::Positive)), Search::Undecided(0.0));
@@ -301,6 +303,16 @@ fn what_cannot_be_decided_is_said() {
     let found = first_crossing(&mut |t| wild(Jet::variable(t)).0, 0.0, 9.0, decided(Sign::Positive), 10);
     assert!(matches!(found, Search::Undecided(t) if t < 1.0), "{found:?}");
     assert_eq!(search(wild, 0.0, 0.5, decided(Sign::Positive)), Search::None);
+}
+
+/// On the surface to rounding, with a slope that is zero to rounding, the second derivative proves nothing:
+/// here f = sin x − x falls no more where x = 2e-8, and is of third order at x = 0.
+#[test]
+fn a_slope_lost_in_rounding_is_not_a_slope_of_zero() {
+    let x = |t: Jet| Jet::constant(0.9) * t * t - Jet::constant(1.8) * t + Jet::constant(2.1e-8);
+    let g = |t: Jet| x(t).sin() - x(t);
+    assert_eq!(search(g, 0.0, 1e-5, on_surface(Sign::Positive)), Search::None);
+    assert!(matches!(search(g, 0.0, 1e-5, on_surface(Sign::Negative)), Search::Crossing(t) if t < 1e-7));
 }
 
 /// Ordinary windows take few boxes.

@@ -33,8 +33,10 @@ pub enum Search {
     /// The sign changes at this time (s); before it, down to a few ulp, the function has its decided sign
     /// or touches zero within rounding.
     Crossing(f64),
-    /// From this time (s) on it cannot be told: the budget ran out, the function is zero to rounding over
-    /// an interval up to the end of the window, or it has no finite enclosure there.
+    /// The function is zero to rounding between these times (s), the second of which is the end of the window
+    /// or where the budget ran out. Before it is as with `None`.
+    Blurred(f64, f64),
+    /// From this time (s) on it cannot be told: the budget ran out, or there is no finite enclosure.
     Undecided(f64),
 }
 
@@ -128,7 +130,7 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
         let mut left = self.at(self.from);
         let on_surface = on_surface || left.f[0] == Interval::ZERO;
         let begins = if on_surface { &left.f[1..] } else { &left.f[..1] };
-        if begins.iter().find(|f| !f.contains_zero()).is_some_and(|f| f.hi < 0.0) {
+        if begins.iter().find(|f| **f != Interval::ZERO).is_some_and(|f| f.hi < 0.0) {
             return Search::Crossing(self.from);
         }
         if on_surface {
@@ -145,7 +147,7 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
             }
             boxes += 1;
             if boxes > budget {
-                return Search::Undecided(blurred.unwrap_or(left.t));
+                return blurred.map_or(Search::Undecided(left.t), |since| Search::Blurred(since, left.t));
             }
             let leaving = on_surface && left.t == self.from;
             let right = match self.judge(left, end, certain, leaving) {
@@ -170,7 +172,7 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
             left = right;
         }
         match blurred {
-            Some(t) if to - t > WIDE * ulp(to) => Search::Undecided(t),
+            Some(t) if to - t > WIDE * ulp(to) => Search::Blurred(t, to),
             _ => Search::None,
         }
     }
@@ -278,32 +280,38 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
 
     /// Sweeps the window for the first time at which f is provably not zero.
     fn departure(mut self, to: f64, budget: u32) -> Search {
-        let (mut left, mut undecided) = (self.from, None);
+        let (mut left, mut blurred) = (self.from, None);
         let mut ends = vec![to];
         let mut boxes = 0;
         while let Some(&end) = ends.last() {
             boxes += 1;
             if boxes > budget {
-                return Search::Undecided(undecided.unwrap_or(left));
+                return blurred.map_or(Search::Undecided(left), |since| Search::Blurred(since, left));
             }
             let x = Interval { lo: left, hi: end };
-            let f = self.over(x);
+            let mut f = self.over(x);
             if f[0] != Interval::ZERO {
+                let middle = self.middle(x);
+                let centre = self.at(middle.unwrap_or(left));
+                f = tightened(f, x, centre);
                 if f.iter().any(|f| !f.contains_zero()) {
                     return Search::Crossing(left);
                 }
-                if let Some(middle) = self.middle(x)
-                    && !is_noise(f[0], self.at(middle).f[0])
+                if let Some(middle) = middle
+                    && !is_noise(f[0], centre.f[0])
                 {
                     ends.push(middle);
                     continue;
                 }
-                undecided = undecided.or(Some(left));
+                if !f[0].is_finite() {
+                    return Search::Undecided(left);
+                }
+                blurred = blurred.or(Some(left));
             }
             left = end;
             ends.pop();
         }
-        undecided.map_or(Search::None, Search::Undecided)
+        blurred.map_or(Search::None, |since| Search::Blurred(since, to))
     }
 
     /// Enclosures of f, f′, f″/2 over `x`.

@@ -65,6 +65,9 @@ const STRAIGHT: Bend = Bend { room: f64::INFINITY, bends: false, coasting: f64::
 /// How often a slot may be scheduled at its own instant.
 pub(super) const MOST_REPEATS: u32 = 100;
 
+/// So many enclosures count as a step of the budget.
+const ENCLOSURES_PER_STEP: u64 = 4;
+
 impl<const ORDER: usize> Qss<ORDER> {
     /// An engine that has not been started.
     pub fn new(equations: &Equations, settings: Settings) -> Self {
@@ -434,6 +437,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
             }
             left = left.saturating_sub(1);
             now = t;
+            let enclosures = self.statistics.enclosures;
             if slot < states {
                 self.state_due(e, slot as usize, t, journal)?;
             } else {
@@ -443,6 +447,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
             if !self.dirty.is_empty() {
                 self.predict_dirty(e, t)?;
             }
+            left = left.saturating_sub((self.statistics.enclosures - enclosures) / ENCLOSURES_PER_STEP);
             crossed |= !self.changed.is_empty();
         }
         Ok(if crossed { Stop::Crossed(now) } else { Stop::Horizon })

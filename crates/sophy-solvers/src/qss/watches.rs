@@ -25,9 +25,17 @@ pub(super) struct WatchRecord {
     due: Due,
     /// Taken off the difference.
     pub(super) bias: f64,
-    /// Last sign change, s, and how often at that instant.
+    /// Last sign change, or what was taken for one, s, and how often at that instant.
     last: f64,
     repeats: u32,
+}
+
+impl WatchRecord {
+    /// Counts a sign change at `t`, or what was taken for one.
+    fn repeat_at(&mut self, t: f64) {
+        self.repeats = if self.last == t { self.repeats + 1 } else { 0 };
+        self.last = t;
+    }
 }
 
 /// Why a watch must be decided anew.
@@ -52,6 +60,11 @@ enum Due {
     /// The stair of a table is outside of its range, and no instant is left to bring it back.
     Outside,
 }
+
+/// Sides that differ by no more than so many relative roundings are equal.
+const EQUAL: f64 = 64.0;
+/// The least part of its window that a search must decide.
+const LEAST_PROGRESS: f64 = 1e-4;
 
 impl Default for WatchRecord {
     fn default() -> Self {
@@ -144,7 +157,12 @@ impl<const ORDER: usize> Qss<ORDER> {
         if sign == decided {
             // The search found noise of rounding about zero: the difference counts as zero, and the search
             // goes on behind it.
-            self.watches[watch.position()].bias += c[0];
+            let record = &mut self.watches[watch.position()];
+            record.bias += c[0];
+            record.repeat_at(t);
+            if record.repeats > MOST_REPEATS {
+                return Err(Fault::Undecided { watch, time: t });
+            }
             return self.predict(e, watch, t);
         }
         self.take_sign(e, watch, sign, due == Due::Root, t, journal)?;
@@ -258,9 +276,20 @@ impl<const ORDER: usize> Qss<ORDER> {
         match self.search_from(e, watch, t, t + self.settings.window, start) {
             Search::Crossing(time) => Ok(Sign::of(self.difference(e, watch, time)?[0])),
             Search::None => Ok(Sign::Zero),
-            Search::Undecided(time) if time > t => Ok(Sign::Zero),
-            Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
+            Search::Blurred(since, _) | Search::Undecided(since) if since > t => Ok(Sign::Zero),
+            Search::Blurred(..) if self.are_equal(e, watch, t) => Ok(Sign::Zero),
+            Search::Blurred(time, _) | Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
         }
+    }
+
+    /// Whether the two sides of a watch are equal to rounding at `t`: what is lost in rounding is small beside
+    /// them. Otherwise large numbers cancel in one of them, and the sign means nothing.
+    fn are_equal(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> bool {
+        let code = &e.watches[watch.position()];
+        let left = self.value_of(e, &code.left, t, 1)[0];
+        let right = self.value_of(e, &code.right, t, 1)[0];
+        let noise = self.enclose(e, watch, Interval::point(t))[0].width();
+        noise <= EQUAL * f64::EPSILON * left.abs().max(right.abs())
     }
 
     /// A watch takes a sign: if it is another one, that is noted; if truths or a stair change with it, what
@@ -276,8 +305,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     ) -> Result<(), Fault> {
         let record = &mut self.watches[watch.position()];
         if record.sign != sign {
-            record.repeats = if record.last == t { record.repeats + 1 } else { 0 };
-            record.last = t;
+            record.repeat_at(t);
             record.sign = sign;
             if record.repeats > MOST_REPEATS {
                 return Err(Fault::Chattering { watch, time: t });
@@ -371,31 +399,38 @@ impl<const ORDER: usize> Qss<ORDER> {
         let far = t + self.settings.window;
         let end = if next > t && next < far { next } else { far };
         let start = Start { sign: self.watches[watch.position()].sign, on_surface };
-        match self.search_from(e, watch, t, end, start) {
-            Search::Crossing(time) => Ok((time, if time > t { Due::Root } else { Due::Joint })),
-            Search::None => Ok((end, Due::Search)),
+        let until = match self.search_from(e, watch, t, end, start) {
+            Search::Crossing(time) => return Ok((time, if time > t { Due::Root } else { Due::Joint })),
+            Search::None => end,
+            // Equal sides keep the sign that was decided until they certainly differ.
+            Search::Blurred(since, until) if self.are_equal(e, watch, since) => until,
             // Not decided ahead: the segments may be others by then.
-            Search::Undecided(time) if time > t => Ok((time, Due::Search)),
-            Search::Undecided(time) => Err(Fault::Undecided { watch, time }),
+            Search::Blurred(since, _) | Search::Undecided(since) => since,
+        };
+        if until - t > LEAST_PROGRESS * (end - t) {
+            Ok((until, Due::Search))
+        } else {
+            Err(Fault::Undecided { watch, time: t })
         }
     }
 
     fn search_from(&mut self, e: &Equations, watch: WatchIndex, t: f64, end: f64, start: Start) -> Search {
+        let budget = self.settings.search_budget;
+        first_crossing(&mut |times| self.enclose(e, watch, times), t, end, start, budget)
+    }
+
+    /// Enclosures of the Taylor coefficients of the watched difference over `times`, the bias taken off.
+    fn enclose(&mut self, e: &Equations, watch: WatchIndex, times: Interval) -> [Interval; 3] {
+        self.statistics.enclosures += 1;
         let formula = &e.watches[watch.position()].formula;
-        let sources = e.sources(&formula.sources);
-        let bias = Interval::point(self.watches[watch.position()].bias);
-        let (records, enclosed, locations) = (&self.records, &mut self.enclosed, &self.locations);
-        let mut enclose = |times: Interval| {
-            for &source in sources {
-                let at = e.layout.series_of(source);
-                let jet = records[source.position()].enclose(times);
-                enclosed[at..at + ORDER + 1].copy_from_slice(&jet[..=ORDER]);
-            }
-            let mut jet = e.formula_enclosed(formula, locations, enclosed);
-            jet[0] = jet[0] - bias;
-            jet
-        };
-        first_crossing(&mut enclose, t, end, start, self.settings.search_budget)
+        for &source in e.sources(&formula.sources) {
+            let at = e.layout.series_of(source);
+            let jet = self.records[source.position()].enclose(times);
+            self.enclosed[at..at + ORDER + 1].copy_from_slice(&jet[..=ORDER]);
+        }
+        let mut jet = e.formula_enclosed(formula, &self.locations, &mut self.enclosed);
+        jet[0] = jet[0] - Interval::point(self.watches[watch.position()].bias);
+        jet
     }
 
     /// Taylor coefficients of the watched difference at `t`, the bias taken off.
