@@ -87,7 +87,7 @@ impl<'a> Parser<'a> {
 
     /// `<!ENTITY …>` and others, up to `]`.
     fn internal_definition(&mut self) {
-        loop {
+        while !self.has_said_enough() {
             self.take_blanks();
             let rest = self.rest();
             let end = |mark: &str| rest.find(mark).map_or(rest.len(), |at| at + mark.len());
@@ -113,10 +113,11 @@ impl<'a> Parser<'a> {
                     .note("every file is checked against the SophySystem.dtd of SOPHY"),
                 );
             } else {
+                // Up to what may be a declaration again.
                 let first = rest.chars().next().map_or(1, char::len_utf8);
                 let after = rest.get(first..).unwrap_or("");
-                let length = after.find([']', '<']).map_or(rest.len(), |at| at + first);
-                let place = self.take(length);
+                let ends = ["]", "<!", "<?"].iter().filter_map(|end| after.find(end));
+                let place = self.take(ends.min().map_or(rest.len(), |at| at + first));
                 self.diagnostics.push(
                     Diagnostic::error(MALFORMED_TAG, self.span(place), "this is not a declaration")
                         .help("delete it; a file needs declarations of its own for entities only"),

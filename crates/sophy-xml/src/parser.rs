@@ -83,8 +83,7 @@ impl<'a> Parser<'a> {
         if rest.is_empty() {
             return self.leave_entity();
         }
-        if self.diagnostics.iter().count() >= MAX_MESSAGES {
-            self.stopped = true;
+        if self.has_said_enough() {
             return false;
         }
         match rest.as_bytes() {
@@ -100,6 +99,12 @@ impl<'a> Parser<'a> {
             _ => self.text(),
         }
         true
+    }
+
+    /// Whether there are so many messages that reading stops here.
+    pub(crate) fn has_said_enough(&mut self) -> bool {
+        self.stopped |= self.diagnostics.iter().count() >= MAX_MESSAGES;
+        self.stopped
     }
 
     /// The unread part of the current text.
