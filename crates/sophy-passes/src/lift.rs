@@ -213,6 +213,10 @@ impl Lifter<'_> {
     }
 
     fn compare(&mut self, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {
+        // Nothing to watch; a value that is not a number stops the run elsewhere.
+        if a == b {
+            return self.system.graph.boolean(comparison.holds(0.0, 0.0));
+        }
         let (watch, mirrored) = self.watch(a, b);
         let comparison = if mirrored { comparison.mirrored() } else { comparison };
         let truths = &mut self.system.truths;

@@ -290,7 +290,7 @@ fn what_cannot_be_decided_is_said() {
     let cancelled = |t: Jet| (t + Jet::constant(0.1)).sin() - (t + Jet::constant(0.1)).sin();
     for sign in [Sign::Positive, Sign::Zero] {
         let found = search(cancelled, 0.0, 1.0, decided(sign));
-        assert!(matches!(found, Search::Blurred(since, until) if since == 0.0 && until > 0.1), "{found:?}");
+        assert!(matches!(found, Search::Blurred(since, until) if since < 1e-9 && until > 1e-3), "{found:?}");
     }
     // not defined
     let undefined = |_: Jet| Jet([Interval::ENTIRE; 3]);

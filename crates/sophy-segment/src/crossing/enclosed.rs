@@ -34,7 +34,7 @@ pub enum Search {
     /// or touches zero within rounding.
     Crossing(f64),
     /// The function is zero to rounding between these times (s), the second of which is the end of the window
-    /// or where the budget ran out. Before it is as with `None`.
+    /// if that took few boxes. Before it is as with `None`.
     Blurred(f64, f64),
     /// From this time (s) on it cannot be told: the budget ran out, or there is no finite enclosure.
     Undecided(f64),
@@ -82,6 +82,8 @@ const REFINEMENT: f64 = 1.0 / (1_u128 << 40) as f64;
 const NOISE: f64 = 4.0;
 /// An interval up to the end of the window is wide if it is longer than this many ulp of time.
 const WIDE: f64 = 64.0;
+/// Boxes after which a search stops that finds nothing but rounding.
+const BLURRED_BOXES: u32 = 1000;
 
 /// f = ±g, oriented to be positive until the crossing.
 struct Sweep<'a, F> {
@@ -147,7 +149,7 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
             }
             boxes += 1;
             if boxes > budget {
-                return blurred.map_or(Search::Undecided(left.t), |since| Search::Blurred(since, left.t));
+                return Search::Undecided(left.t);
             }
             let leaving = on_surface && left.t == self.from;
             let right = match self.judge(left, end, certain, leaving) {
@@ -160,7 +162,10 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
                 }
                 Verdict::Lost => return Search::Undecided(left.t),
                 Verdict::Blurred(right) => {
-                    blurred = blurred.or(Some(left.t));
+                    let (since, first) = *blurred.get_or_insert((left.t, boxes));
+                    if boxes - first > BLURRED_BOXES {
+                        return Search::Blurred(since, right.t);
+                    }
                     right
                 }
                 Verdict::Holds(right) => right,
@@ -172,7 +177,7 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
             left = right;
         }
         match blurred {
-            Some(t) if to - t > WIDE * ulp(to) => Search::Blurred(t, to),
+            Some((since, _)) if to - since > WIDE * ulp(to) => Search::Blurred(since, to),
             _ => Search::None,
         }
     }
@@ -286,7 +291,7 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
         while let Some(&end) = ends.last() {
             boxes += 1;
             if boxes > budget {
-                return blurred.map_or(Search::Undecided(left), |since| Search::Blurred(since, left));
+                return Search::Undecided(left);
             }
             let x = Interval { lo: left, hi: end };
             let mut f = self.over(x);
@@ -306,12 +311,15 @@ impl<F: FnMut(Interval) -> [Interval; 3]> Sweep<'_, F> {
                 if !f[0].is_finite() {
                     return Search::Undecided(left);
                 }
-                blurred = blurred.or(Some(left));
+                let (since, first) = *blurred.get_or_insert((left, boxes));
+                if boxes - first > BLURRED_BOXES {
+                    return Search::Blurred(since, end);
+                }
             }
             left = end;
             ends.pop();
         }
-        blurred.map_or(Search::None, |since| Search::Blurred(since, to))
+        blurred.map_or(Search::None, |(since, _)| Search::Blurred(since, to))
     }
 
     /// Enclosures of f, f′, f″/2 over `x`.
