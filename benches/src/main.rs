@@ -1,7 +1,7 @@
 //! Sophy beside hand-written loops of the same algorithm, in one process, alternating.
 //!
 //! `cargo xtask bench` builds and runs this; the table goes to the terminal and to `results/latest.{md,json}`. With
-//! the word `language` it measures the language alone, and writes no file.
+//! the word `language` it measures the language alone, with `engine` the engines alone, and writes no file.
 //! Machines are noisy: read the ratios, which compare neighbours in time, and never a speed without the error
 //! that stands beside it.
 
@@ -15,11 +15,19 @@ mod oscillator;
 mod report;
 
 fn main() -> std::io::Result<()> {
-    if std::env::args().nth(1).as_deref() == Some("language") {
-        print!("{}", report::told_markdown(&language::bench()));
-        return Ok(());
+    let engines = || [hopper::bench(), oscillator::bench()].concat();
+    match std::env::args().nth(1).as_deref() {
+        Some("language") => {
+            print!("{}", report::told_markdown(&language::bench()));
+            return Ok(());
+        }
+        Some("engine") => {
+            print!("{}", report::markdown(&engines()));
+            return Ok(());
+        }
+        _ => {}
     }
-    let results = [hopper::bench(), oscillator::bench()].concat();
+    let results = engines();
     let built = build::bench();
     let told = language::bench();
     let tables = [report::markdown(&results), report::built_markdown(&built), report::told_markdown(&told)];
