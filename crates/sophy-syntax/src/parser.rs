@@ -10,6 +10,8 @@ use std::ops::Range;
 
 /// How deep expressions may be nested; keeps every later walk over the tree off the end of the stack.
 const DEEPEST: usize = 128;
+/// How many tokens ahead a missing word is looked for.
+const FAR: usize = 1000;
 
 /// Drives the grammar over the tokens and builds the tree.
 ///
@@ -261,10 +263,10 @@ impl<'t> Parser<'t> {
         found.map(Token::range)
     }
 
-    /// Whether a token of `kind` comes before the statement ends, or ends it.
+    /// Whether a token of `kind` comes before the statement ends, or ends it; in a long one not far from here.
     pub(crate) fn comes(&self, kind: SyntaxKind) -> bool {
         let here = self.significant(self.position);
-        let end = self.statement_end(here).unwrap_or(here);
+        let end = self.statement_end(here).unwrap_or(here).min(here + FAR);
         self.tokens.get(here..=end).is_some_and(|tokens| tokens.iter().any(|token| token.kind == kind))
     }
 

@@ -53,7 +53,7 @@ impl<'a> Parser<'a> {
     /// Appends `raw`, which stands at `place`, to `value`. `entities` are those it is the text of.
     fn resolve_value(&mut self, raw: &'a str, place: Place, entities: &mut Vec<&'a str>, value: &mut Text) {
         let (mut rest, mut place) = (raw, place);
-        while !rest.is_empty() && !self.stopped {
+        while !rest.is_empty() && !self.has_said_enough() {
             let length = match rest.find(['&', '\r', '\n', '\t']).unwrap_or(rest.len()) {
                 0 if rest.starts_with('&') => self.resolve_value_reference(rest, &place, entities, value),
                 0 => {
