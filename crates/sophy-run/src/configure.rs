@@ -1,6 +1,6 @@
 //! Names of an experiment become indices of a system; every mistake is found before the run starts.
 
-use crate::experiment::{Experiment, ExperimentError, Method, QuantumRule, Signal, matches};
+use crate::experiment::{Experiment, ExperimentError, QuantumRule, Signal, matches};
 use crate::inputs;
 use rustc_hash::FxHashMap;
 use sophy_codegen::Parameters;
@@ -83,7 +83,7 @@ pub(crate) fn configure(
         events.extend(receivers.into_iter().map(|event| (*time, event)));
     }
     if errors.is_empty() {
-        let order = if experiment.method == Method::Qss1 { 1 } else { 2 };
+        let order = experiment.method.order();
         Ok(Configured { knobs, locations, quanta, signals, events, order })
     } else {
         Err(errors)

@@ -71,11 +71,15 @@ pub enum Method {
     Qss1,
     /// Second-order quantised states.
     Qss2,
+    /// First-order quantised states, linearly implicit: for stiff models.
+    Liqss1,
+    /// Second-order quantised states, linearly implicit: for stiff models.
+    Liqss2,
 }
 
 impl Method {
     /// All names that [`Method::named`] knows.
-    pub const NAMES: &'static [&'static str] = &["auto", "qss1", "qss2"];
+    pub const NAMES: &'static [&'static str] = &["auto", "qss1", "qss2", "liqss1", "liqss2"];
 
     /// The method of a name.
     pub fn named(name: &str) -> Option<Method> {
@@ -83,8 +87,23 @@ impl Method {
             "auto" => Some(Method::Auto),
             "qss1" => Some(Method::Qss1),
             "qss2" => Some(Method::Qss2),
+            "liqss1" => Some(Method::Liqss1),
+            "liqss2" => Some(Method::Liqss2),
             _ => None,
         }
+    }
+
+    /// The order of its segments.
+    pub(crate) fn order(self) -> u32 {
+        match self {
+            Method::Qss1 | Method::Liqss1 => 1,
+            Method::Auto | Method::Qss2 | Method::Liqss2 => 2,
+        }
+    }
+
+    /// Whether its quantisation is linearly implicit.
+    pub(crate) fn is_implicit(self) -> bool {
+        matches!(self, Method::Liqss1 | Method::Liqss2)
     }
 
     /// Its name.
@@ -93,6 +112,8 @@ impl Method {
             Method::Auto => "auto",
             Method::Qss1 => "qss1",
             Method::Qss2 => "qss2",
+            Method::Liqss1 => "liqss1",
+            Method::Liqss2 => "liqss2",
         }
     }
 }

@@ -143,7 +143,9 @@ impl Reporter<'_> {
                     format!("it cannot be decided whether `{text}` crosses zero at t = {time} s"),
                 );
                 failure.span = self.watch_span(watch);
-                failure.notes.push("large numbers cancel in it: what is left is less than their rounding".to_owned());
+                failure
+                    .notes
+                    .push("large numbers cancel in it: what is left is less than their rounding".to_owned());
                 failure.notes.push(self.values(self.watch_sources(watch), time));
                 failure.helps.push(
                     "write it so that nothing cancels, or with a margin (`> 1e-9` instead of `> 0`)"

@@ -88,7 +88,8 @@ impl Run {
         let locations = &configured.locations;
         let states = initial_states(&system, experiment, &compiled.parameters, &lines, locations, &ranges)?;
         let equations = &compiled.equations;
-        let settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
+        let mut settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
+        settings.implicit = experiment.method.is_implicit();
         let engine: Box<dyn Engine> = match configured.order {
             1 => Box::new(Qss::<1>::new(equations, settings)),
             _ => Box::new(Qss::<2>::new(equations, settings)),

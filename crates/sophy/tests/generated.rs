@@ -162,7 +162,8 @@ fn for_all(models: impl Strategy<Value = String>, check: impl Fn(&str, &[u8]) ->
     let gaps = prop::collection::vec(any::<u8>(), 7..40);
     // The same models every time, unless others are asked for: `GENERATED_SEED=7 cargo test -p sophy-sim …`.
     let seed: u64 = std::env::var("GENERATED_SEED").map_or(0, |seed| seed.parse().unwrap());
-    let bytes: Vec<u8> = (0..32).map(|i| seed.wrapping_mul(2 * i + 1).to_le_bytes()[i as usize % 8]).collect();
+    let bytes: Vec<u8> =
+        (0..32).map(|i| seed.wrapping_mul(2 * i + 1).to_le_bytes()[i as usize % 8]).collect();
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
     let result = TestRunner::new_with_rng(config, rng).run(&(models, gaps), |(text, gaps)| {
         ran.set(ran.get() + u32::from(check(&text, &gaps)));

@@ -1,7 +1,7 @@
 //! Random hybrid automata with constant rates against a slow simulator in exact arithmetic, and compositions
 //! against what they mean when written by hand as one system.
 
-use crate::support::{by, run, to};
+use crate::support::{METHODS, by, run, to};
 use proptest::prelude::*;
 use sophy_ir::{Comparison, NodeId, VariableId};
 use sophy_record::Side;
@@ -9,7 +9,7 @@ use sophy_run::Method;
 use sophy_testkit::{Build, Place};
 
 fn methods() -> impl Strategy<Value = Method> {
-    prop_oneof![Just(Method::Qss1), Just(Method::Qss2)]
+    prop::sample::select(METHODS.to_vec())
 }
 
 /// `state ≥ threshold` or `state ≤ threshold`, in eighths; to a location, with a reset and an event.
@@ -282,7 +282,7 @@ proptest! {
 /// same written as one automaton.
 #[test]
 fn signals_that_depend_on_a_location_are_those_of_the_flat_system() {
-    for method in [Method::Qss1, Method::Qss2] {
+    for method in METHODS {
         let mut b = Build::default();
         b.component("sender");
         let (clock, y) = (b.state("clock", 0.0), b.output("y"));
@@ -380,7 +380,7 @@ fn signals_that_depend_on_a_location_are_those_of_the_flat_system() {
 /// Two automata whose transitions fall on one instant exchange their states: both read what was before.
 #[test]
 fn transitions_of_one_micro_step_read_the_values_before() {
-    for method in [Method::Qss1, Method::Qss2] {
+    for method in METHODS {
         let mut b = Build::default();
         let mut states = Vec::new();
         let mut outputs = Vec::new();

@@ -1,6 +1,6 @@
 //! Systems with closed solutions: errors and steps against the quantum (thesis §3.3).
 
-use crate::support::{by, order, run, to};
+use crate::support::{METHODS, by, order, run, to};
 use sophy_record::Side;
 use sophy_run::{Experiment, Method, Quantum, QuantumRule};
 use sophy_testkit::{Build, Reference, problems};
@@ -49,7 +49,7 @@ fn the_two_timescale_system_is_followed_and_its_clock_needs_no_event() {
 /// parabola for ever. Rates that bend are evaluated again in time.
 #[test]
 fn rates_of_time_alone_are_followed() {
-    for method in [Method::Qss1, Method::Qss2] {
+    for method in METHODS {
         let mut b = Build::default();
         b.component("");
         let (sine, power) = (b.state("sine", 0.0), b.state("power", 0.0));

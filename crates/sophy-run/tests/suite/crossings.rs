@@ -1,8 +1,8 @@
 //! No missed event: thin dips, touches and corners (thesis figure 8.2), affine and not.
 
-use crate::support::{by, run, to};
+use crate::support::{METHODS, by, is_first_order, run, to};
 use sophy_ir::Unary;
-use sophy_run::{Experiment, Method};
+use sophy_run::Experiment;
 use sophy_testkit::{Build, problems};
 
 #[test]
@@ -28,7 +28,7 @@ fn a_corner_of_two_conditions_is_found_when_both_hold() {
 /// On a circle, x₁·x₂ > c and √(x₁² + x₂²) > r are not affine: they are located by enclosures.
 #[test]
 fn guards_that_are_not_affine_are_located_by_enclosures() {
-    for method in [Method::Qss1, Method::Qss2] {
+    for method in METHODS {
         let mut b = Build::default();
         b.component("");
         let (x1, x2) = (b.state("x1", 1.0), b.state("x2", 0.0));
@@ -45,7 +45,7 @@ fn guards_that_are_not_affine_are_located_by_enclosures() {
         let low = b.less(product, quarter);
         b.when(outside, "in", high, inside, &[]);
         b.when(inside, "out", low, outside, &[]);
-        let quantum = if method == Method::Qss1 { 1e-4 } else { 1e-6 };
+        let quantum = if is_first_order(method) { 1e-4 } else { 1e-6 };
         let result = run(&b.model(), &by(method, to(7.0, quantum)));
         // ½ sin 2t = ¼ at 2t = π/6, 5π/6 and again after a half turn.
         let pi = std::f64::consts::PI;

@@ -1,13 +1,11 @@
 //! Event sections, modes, initial sections, priorities, conditional events: what happens, against closed forms.
 
-use crate::support::{by, run, to, try_run};
+use crate::support::{METHODS, by, run, to, try_run};
 use sophy_ir::{Comparison, Feature, Unary, VariableId};
 use sophy_passes::lower;
-use sophy_run::{Experiment, Method, Run, Signal, SimulateError, StartError};
+use sophy_run::{Experiment, Run, Signal, SimulateError, StartError};
 use sophy_testkit::Build;
 use std::sync::Arc;
-
-const METHODS: [Method; 2] = [Method::Qss1, Method::Qss2];
 
 /// Name and time of every event.
 fn events(result: &crate::support::Result) -> Vec<(&str, f64)> {

@@ -1,7 +1,7 @@
 //! The first instant at which a guard holds, against known roots and against a slow exhaustive search on the
 //! run's own segments.
 
-use crate::support::{by, run, to};
+use crate::support::{METHODS, by, run, to};
 use proptest::prelude::*;
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Model, NodeId, Unary, Value, VariableId, evaluate};
 use sophy_record::{Side, Trajectory};
@@ -12,7 +12,7 @@ const COMPARISONS: [Comparison; 4] =
     [Comparison::Less, Comparison::LessEqual, Comparison::Greater, Comparison::GreaterEqual];
 
 fn methods() -> impl Strategy<Value = Method> {
-    prop_oneof![Just(Method::Qss1), Just(Method::Qss2)]
+    prop::sample::select(METHODS.to_vec())
 }
 
 /// Roots of a polynomial, with multiplicity: dyadic, some at the start, in close pairs, double or triple.
@@ -405,7 +405,7 @@ proptest! {
 /// random depths and places; a touch is none.
 #[test]
 fn double_crossings_inside_a_segment_are_found_and_touches_are_not() {
-    for method in [Method::Qss1, Method::Qss2] {
+    for method in METHODS {
         for depth in [0.0, 1e-3, 1e-6, 1e-9, 1e-12] {
             for (k, middle) in [0.25, 1.0, 1.1, 2.0, 3.0625].into_iter().enumerate() {
                 // (t − middle)² − depth < 0, not affine in t.

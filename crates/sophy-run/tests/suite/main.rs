@@ -15,6 +15,7 @@ mod limits;
 mod promises;
 mod shapes;
 mod simultaneous;
+mod stiff;
 mod support;
 mod switches;
 mod tables;

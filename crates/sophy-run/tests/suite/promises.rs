@@ -1,6 +1,6 @@
 //! The promises of a run, as properties: the band, determinism, pausing, snapshots.
 
-use crate::support::{by, to};
+use crate::support::{METHODS, by, to};
 use proptest::prelude::*;
 use sophy_field::StateIndex;
 use sophy_ir::Model;
@@ -15,7 +15,7 @@ fn start(model: &Model, experiment: &Experiment) -> Run {
 }
 
 fn methods() -> impl Strategy<Value = Method> {
-    prop_oneof![Just(Method::Qss1), Just(Method::Qss2)]
+    prop::sample::select(METHODS.to_vec())
 }
 
 proptest! {

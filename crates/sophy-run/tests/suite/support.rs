@@ -3,6 +3,14 @@ use sophy_record::{EventRecord, Table, Trajectory};
 use sophy_run::{Experiment, Method, Quantum, QuantumRule, Recorder, Report, Run, SimulateError, simulate};
 use std::sync::Arc;
 
+/// All quantised engines.
+pub(crate) const METHODS: [Method; 4] = [Method::Qss1, Method::Qss2, Method::Liqss1, Method::Liqss2];
+
+/// Whether segments are lines.
+pub(crate) fn is_first_order(method: Method) -> bool {
+    matches!(method, Method::Qss1 | Method::Liqss1)
+}
+
 /// What a run of a model gave.
 pub(crate) struct Result {
     pub(crate) report: Report,

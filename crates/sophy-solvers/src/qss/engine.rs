@@ -9,7 +9,7 @@ use sophy_segment::{Interval, Sign};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The quantised-state engine of order `ORDER`: 1 is QSS1, 2 is QSS2.
+/// The quantised-state engine of order `ORDER`: 1 is QSS1, 2 is QSS2; with implicit quantisation LIQSS1 and LIQSS2.
 ///
 /// Equations must have been compiled for the same order. Slots of the agenda: the states (change of q, or
 /// evaluation of a rate that bends), then the watches.
@@ -101,11 +101,19 @@ impl<const ORDER: usize> Qss<ORDER> {
     fn step(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Fault> {
         self.count_repeats(i, self.records[i].tq, t)?;
         // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
-        let record = &mut self.records[i];
+        let record = &self.records[i];
         let x = record.x_at(t);
-        record.q = [x, if ORDER > 1 { record.slope_at(t) } else { 0.0 }];
+        let mut q = [x, if ORDER > 1 { record.slope_at(t) } else { 0.0 }];
+        let quantum = self.settings.quanta[i].at(x);
+        if self.settings.implicit {
+            q = self.quantise_ahead(e, i, t, quantum).unwrap_or(q);
+        }
+        let record = &mut self.records[i];
+        record.q = q;
         record.tq = t;
-        record.quantum = self.settings.quanta[i].at(x);
+        // Implicit quantisation begins at the edge of the band and moves inward, but for rounding.
+        let slack = if self.settings.implicit { 1e-9 * quantum + 4.0 * f64::EPSILON * x.abs() } else { 0.0 };
+        record.quantum = quantum + slack;
         self.statistics.steps += 1;
         if journal.wanted {
             journal.push(sophy_field::Record::Step { time: t, state: StateIndex::new(i) });

@@ -74,11 +74,8 @@ impl<const ORDER: usize> Qss<ORDER> {
     ) -> Option<[f64; 2]> {
         let a = self.own_slope(e, i, t);
         let record = &self.records[i];
-        let linear = Linear {
-            a,
-            rate: [record.slope_at(t), 2.0 * record.x[2]],
-            q: [record.q_at(t), record.q[1]],
-        };
+        let linear =
+            Linear { a, rate: [record.slope_at(t), 2.0 * record.x[2]], q: [record.q_at(t), record.q[1]] };
         let q = linear.quantise::<ORDER>(record.x_at(t), quantum);
         (a <= 0.0 && q[0].is_finite() && q[1].is_finite()).then_some(q)
     }

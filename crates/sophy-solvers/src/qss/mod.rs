@@ -19,6 +19,7 @@
 //! print δ_int before λ; the output λ is what was predicted before: x at the edge of the band, which q becomes.
 
 mod engine;
+mod implicit;
 mod record;
 mod settings;
 mod stairs;
