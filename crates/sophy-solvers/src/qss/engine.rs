@@ -22,6 +22,8 @@ pub struct Qss<const ORDER: usize> {
     bends: Vec<Bend>,
     /// The state whose rate is being evaluated only because it bends; `usize::MAX` if none.
     refreshed: usize,
+    /// See [`Qss::still_for`], of the block evaluated last.
+    still: f64,
     /// How often a state was scheduled at its own instant.
     repeats: Vec<u32>,
     pub(super) watches: Vec<WatchRecord>,
@@ -54,13 +56,16 @@ struct Bend {
     room: f64,
     /// Whether the rate bends at all; then it is trusted for a bounded time even if its room is infinite.
     bends: bool,
+    /// That time, s.
+    trust: f64,
     /// Since when the rate was evaluated only because it bends, s.
     coasting: f64,
     /// Whether the agenda's time is that of evaluating the rate again, not the edge of the band.
     due: bool,
 }
 
-const STRAIGHT: Bend = Bend { room: f64::INFINITY, bends: false, coasting: f64::NEG_INFINITY, due: false };
+const STRAIGHT: Bend =
+    Bend { room: f64::INFINITY, bends: false, trust: f64::INFINITY, coasting: f64::NEG_INFINITY, due: false };
 
 /// How often a slot may be scheduled at its own instant.
 pub(super) const MOST_REPEATS: u32 = 100;
@@ -78,6 +83,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             records: vec![Record::line(0.0, 0.0, 0.0); sources],
             bends: vec![STRAIGHT; states],
             refreshed: usize::MAX,
+            still: 0.0,
             repeats: vec![0; states],
             watches: vec![WatchRecord::default(); watches],
             locations: vec![LocationIndex(0); equations.automata.len()],
@@ -148,6 +154,9 @@ impl<const ORDER: usize> Qss<ORDER> {
     fn evaluate(&mut self, e: &Equations, block: &Block, t: f64, journal: &mut Journal) -> Result<(), Fault> {
         let orders = if block.bends { ORDER + 1 } else { ORDER };
         self.run_block(e, block, t, orders);
+        if block.bends {
+            self.still = self.still_for(e, block);
+        }
         for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
             self.set_rate(e, *row, t, e.result(row.result, &self.memory, orders), journal)?;
         }
@@ -175,6 +184,23 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.memory[at + 1] = record.q[1];
         }
         e.execute(&block.call, &mut self.memory, orders);
+    }
+
+    /// How long, s, no source of a block moves by a quantum: until then its rates are those of the present place, as
+    /// far as they are known at all.
+    fn still_for(&self, e: &Equations, block: &Block) -> f64 {
+        let still = |source: &SourceIndex| {
+            let Record { q, quantum, .. } = self.records[source.position()];
+            // Inputs and time have no quantum.
+            if q[1] == 0.0 {
+                f64::INFINITY
+            } else if quantum.is_finite() {
+                quantum / q[1].abs()
+            } else {
+                0.0
+            }
+        };
+        e.sources(&block.sources).iter().map(still).fold(f64::INFINITY, f64::min)
     }
 
     /// δ_ext: a new rate arrives (algorithm 3.1). `rate` holds f, ḟ, ½f̈ along q.
@@ -206,6 +232,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             }
             let left_out = if ORDER > 1 { f2.abs() / 3.0 } else { f1.abs() / 2.0 };
             bend.room = self.records[i].quantum / left_out;
+            bend.trust = self.settings.trust.max(self.still);
         } else {
             self.bends[i] = STRAIGHT;
         }
@@ -243,8 +270,8 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// and the error converges with it at first order, as that of the method does.
     #[inline]
     fn trusted_for(&self, bend: Bend, t: f64, enough: f64) -> f64 {
-        let Bend { room, coasting, .. } = bend;
-        let (coasted, trust) = (t - coasting, self.settings.trust);
+        let Bend { room, coasting, trust, .. } = bend;
+        let coasted = t - coasting;
         let (alone, shared) = if ORDER > 1 {
             // Roots cost more than the question whether they matter.
             if room >= enough * enough * enough && room >= enough * enough * coasted {

@@ -34,7 +34,8 @@ pub struct Settings {
     /// Whether quantisation is linearly implicit (LIQSS).
     pub implicit: bool,
     /// The longest time, s, for which a rate that bends is trusted without being evaluated again; a guard
-    /// against a bend that vanishes at one instant. A hundredth of the run is usual.
+    /// against a bend that vanishes at one instant. A hundredth of the run is usual. It does not hold while nothing
+    /// that the rate reads moves by a quantum.
     pub trust: f64,
     /// The longest time, s, over which a non-linear guard is searched ahead at once. Any value finds the same
     /// crossings; a sixteenth of the run is usual.
