@@ -58,8 +58,8 @@ pub struct Variable {
     pub kind: VariableKind,
     /// Kind of its values.
     pub quantity: Quantity,
-    /// Least and greatest value, where they were declared.
-    pub range: Option<[NodeId; 2]>,
+    /// Numbers it can have, where they were declared.
+    pub range: Option<Allowed>,
     /// Texts it can have, where they were declared; empty if any.
     pub choices: Vec<usize>,
     /// Whether it is to be recorded and displayed although it is no output.
@@ -73,6 +73,15 @@ pub struct Variable {
     pub documentation: String,
     /// Where it is declared.
     pub span: Option<Span>,
+}
+
+/// Numbers that a quantity can have.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Allowed {
+    /// From the first to the second; both belong to it. Over parameters.
+    Between([NodeId; 2]),
+    /// These, and none between them.
+    OneOf(Vec<f64>),
 }
 
 /// The kinds of variables.

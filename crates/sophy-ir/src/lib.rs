@@ -30,9 +30,9 @@ mod written;
 pub use affine::Affine;
 pub use arithmetic::{Binary, Comparison, Unary};
 pub use class::{
-    Actions, Assignment, Body, Class, ClassIndex, Clock, Composite, Constraint, Discrete, Emission, Equation,
-    EventEnd, EventPort, EventSection, EventWire, HybridAutomaton, Location, Member, Port, Rule, Sources,
-    Special, Transition, Trigger, Variable, VariableId, VariableKind, Wire,
+    Actions, Allowed, Assignment, Body, Class, ClassIndex, Clock, Composite, Constraint, Discrete, Emission,
+    Equation, EventEnd, EventPort, EventSection, EventWire, HybridAutomaton, Location, Member, Port, Rule,
+    Sources, Special, Transition, Trigger, Variable, VariableId, VariableKind, Wire,
 };
 pub use column::Column;
 pub use dependencies::Reach;
@@ -44,6 +44,6 @@ pub use model::{Interpolation, Model, Quantity, Table};
 pub use pieces::Pieces;
 pub use system::{
     Algebraic, Automaton, Awaited, Event, EventInput, Feature, FlatEmission, FlatLocation, FlatReset,
-    FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Range, Receiver, Role, Row, Stair, State,
-    System, Truth, VerifyError, Watch,
+    FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Range, Ranged, Receiver, Role, Row, Stair,
+    State, System, Truth, VerifyError, Watch,
 };

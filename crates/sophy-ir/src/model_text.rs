@@ -1,8 +1,8 @@
 //! The text form of a model (`--emit model`), in the notation of the language.
 
 use crate::class::{
-    Actions, Assignment, Body, Class, Clock, Composite, Discrete, EventPort, HybridAutomaton, Location, Port,
-    Rule, Sources, Special, Transition, Trigger, Variable, VariableKind,
+    Actions, Allowed, Assignment, Body, Class, Clock, Composite, Discrete, EventPort, HybridAutomaton,
+    Location, Port, Rule, Sources, Special, Transition, Trigger, Variable, VariableKind,
 };
 use crate::model::{Model, Quantity};
 use crate::{Leaf, NodeId};
@@ -154,8 +154,11 @@ impl Text<'_> {
             Quantity::Text => " : string",
         };
         let mut within = String::new();
-        if let Some([low, high]) = variable.range {
+        if let Some(Allowed::Between([low, high])) = variable.range {
             within = format!(" in ({}, {})", self.expression(low), self.expression(high));
+        } else if let Some(Allowed::OneOf(numbers)) = &variable.range {
+            let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
+            within = format!(" in {{{}}}", numbers.join(", "));
         } else if !variable.choices.is_empty() {
             let text = |n: &usize| self.model.texts.get(*n).map_or("?".to_owned(), |t| format!("{t:?}"));
             let texts: Vec<String> = variable.choices.iter().map(text).collect();

@@ -1,11 +1,11 @@
 use crate::arithmetic::Comparison;
-use crate::class::{ClassIndex, VariableId};
+use crate::class::{Allowed, ClassIndex, VariableId};
 use crate::graph::{Graph, Leaf, Node, NodeId};
 use crate::model::Quantity;
 use sophy_diagnostics::Span;
 use sophy_field::{
-    AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StateIndex,
-    TransitionIndex, WatchIndex,
+    AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StairIndex,
+    StateIndex, TransitionIndex, WatchIndex,
 };
 use std::fmt;
 
@@ -45,7 +45,7 @@ pub struct System {
     pub stairs: Vec<Stair>,
     /// What is watched though no rate or guard reads it: rows that read the stairs of tables which outputs read.
     pub guarded: Vec<Row>,
-    /// Declared ranges, those of parameters before those of states, each in the order of what they are of.
+    /// Declared ranges, those of parameters first; those of states are in the order of states.
     pub ranges: Vec<Range>,
     /// Assignments at the start, after declared values, in an order in which each follows what it reads.
     pub initial: Vec<FlatReset>,
@@ -57,13 +57,36 @@ pub struct System {
     pub awaits: Vec<Awaited>,
 }
 
-/// Least and greatest value of a parameter or state.
+/// The numbers that a quantity can have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
-    /// The parameter or state.
-    pub of: Leaf,
-    /// Both belong to the range; over parameters.
-    pub bounds: [NodeId; 2],
+    /// The quantity.
+    pub of: Ranged,
+    /// Its numbers.
+    pub allowed: Allowed,
+    /// Of what moves between events: the stairs that watch it, one for all locations or one for each. A run puts the
+    /// bounds into their columns, a margin further out, as quantised trajectories leave them by about a quantum.
+    pub stairs: Vec<StairIndex>,
+    /// Where the quantity is declared.
+    pub span: Option<Span>,
+}
+
+/// What has a range.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ranged {
+    /// A parameter.
+    Parameter(ParameterIndex),
+    /// A state.
+    State(StateIndex),
+    /// An input, an output or a local.
+    Value {
+        /// Its name.
+        name: String,
+        /// Its unit as written.
+        unit: Option<String>,
+        /// Its value, switches as written.
+        value: Row,
+    },
 }
 
 /// A part of a model that this version checks but cannot run.

@@ -6,8 +6,8 @@
 use rustc_hash::FxHashMap;
 use sophy_field::{AlgebraicIndex, ColumnIndex, StairIndex, TruthIndex, WatchIndex};
 use sophy_ir::{
-    Binary, Column, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Reach, Row, Stair, System, Truth,
-    Unary, Watch,
+    Allowed, Binary, Column, Comparison, FlatTrigger, Leaf, Linearity, Node, NodeId, Range, Ranged, Reach,
+    Row, Stair, System, Truth, Unary, Watch,
 };
 
 /// Lifts the kinks of rates, algebraic variables and guards. Outputs and resets keep theirs: they are read
@@ -72,6 +72,43 @@ impl Lifter<'_> {
             };
         }
         self.outputs();
+        self.ranges();
+    }
+
+    /// Watches the ends of the ranges of what moves between events. The bounds follow when a run starts.
+    fn ranges(&mut self) {
+        let mut columns: FxHashMap<[NodeId; 2], ColumnIndex> = FxHashMap::default();
+        for k in 0..self.system.ranges.len() {
+            let Range { of, allowed: Allowed::Between(bounds), .. } = &self.system.ranges[k] else {
+                continue;
+            };
+            let mut row = match of {
+                Ranged::State(state) if !self.system.states[state.position()].discrete => {
+                    let leaf = self.system.graph.leaf(Leaf::State(*state));
+                    let mut row = self.system.states[state.position()].rate.clone();
+                    row.by_location.fill(leaf);
+                    row
+                }
+                Ranged::Value { value, .. } => value.clone(),
+                Ranged::State(_) | Ranged::Parameter(_) => continue,
+            };
+            // Copies of a component share their bounds, and so the code that watches them.
+            let column = *columns.entry(*bounds).or_insert_with_key(|bounds| {
+                let name = format!("range {}", bounds.map(|bound| bound.position().to_string()).join(" … "));
+                self.system.graph.column(Column { name, numbers: vec![f64::MIN, f64::INFINITY] })
+            });
+            let mut stairs = Vec::new();
+            for node in &mut row.by_location {
+                let value = self.lift(*node);
+                *node = self.stair(value, Some(column));
+                if let Node::Leaf(Leaf::Stair(stair)) = self.system.graph.node(*node) {
+                    stairs.push(stair);
+                }
+            }
+            stairs.dedup();
+            self.system.ranges[k].stairs = stairs;
+            self.system.guarded.push(row);
+        }
     }
 
     /// Watches the ends of the tables that outputs read, where no rate watches their knots.

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may panic
 
 use sophy_ir::{
-    Body, ClassIndex, Composite, Leaf, Member, Port, Quantity, Sources, Special, VariableId, Wire,
+    Allowed, Body, ClassIndex, Composite, Leaf, Member, Port, Quantity, Sources, Special, VariableId, Wire,
 };
 use sophy_testkit::Build;
 
@@ -38,7 +38,7 @@ fn classes_members_and_wires_are_shown_as_they_are_written() {
     class.variables[2].viewed = true;
     let low = class.graph.number(0.0);
     let reads_k = class.graph.leaf(Leaf::Variable(VariableId(5)));
-    class.variables[0].range = Some([low, reads_k]);
+    class.variables[0].range = Some(Allowed::Between([low, reads_k]));
     let input = class.graph.leaf(Leaf::Variable(VariableId(0)));
     let delay = class.graph.number(0.1);
     class.specials.push(Special::Delayed { value: input, delay, before: None });

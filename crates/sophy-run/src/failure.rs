@@ -1,10 +1,13 @@
 //! A run that cannot go on says what, where, why, and with which values.
 
+use crate::ranges::{self, watched};
 use crate::tables::{outside, range_text};
 use sophy_diagnostics::{Code, Diagnostic, Severity, Span};
-use sophy_field::{Engine, Fault, LocationIndex, SourceIndex, StateIndex, TransitionIndex, WatchIndex};
+use sophy_field::{
+    Engine, Fault, LocationIndex, SourceIndex, StairIndex, StateIndex, TransitionIndex, WatchIndex,
+};
 use sophy_hybrid::HybridError;
-use sophy_ir::{Leaf, NodeId, System, Value};
+use sophy_ir::{Leaf, NodeId, Ranged, Stair, System, Value};
 
 /// How many of the things that cannot be run are listed.
 const SHOWN: usize = 20;
@@ -221,8 +224,35 @@ impl Reporter<'_> {
         failure
     }
 
+    /// What moves has left its range.
+    fn range(&self, stair: StairIndex, time: f64, value: f64) -> Option<Failure> {
+        let (range, name, unit, bounds) = watched(self.system, self.parameters, stair)?;
+        let sentence = ranges::outside(name, value, bounds, unit);
+        let mut failure = self.failure("SR0011", time, format!("{sentence}, at t = {time} s"));
+        failure.span = range.span;
+        let leaves = match &range.of {
+            Ranged::State(state) => {
+                failure.notes.push(self.equation(*state));
+                self.rate_sources(*state)
+            }
+            Ranged::Value { value, .. } => self.system.row_sources(value),
+            Ranged::Parameter(_) => Vec::new(),
+        };
+        failure.notes.push(self.values(leaves, time));
+        failure.helps.push(
+            "limit the motion, by a transition at the bound or in its equation, or change the range"
+                .to_owned(),
+        );
+        Some(failure)
+    }
+
     fn table(&self, watch: WatchIndex, time: f64, value: f64) -> Failure {
-        let stair = self.system.stairs.iter().find(|stair| stair.lower == watch || stair.upper == watch);
+        let decides = |stair: &Stair| stair.lower == watch || stair.upper == watch;
+        let position = self.system.stairs.iter().position(decides);
+        if let Some(failure) = position.and_then(|stair| self.range(StairIndex::new(stair), time, value)) {
+            return failure;
+        }
+        let stair = position.and_then(|stair| self.system.stairs.get(stair));
         let argument = stair.map_or("?".to_owned(), |stair| self.system.text(stair.argument));
         let knots = stair.and_then(|stair| self.system.graph.columns().get(stair.knots?.position()));
         let (name, range) = knots.map_or(("?", String::new()), |knots| (&knots.name, range_text(knots)));

@@ -79,6 +79,27 @@ pub(crate) fn initial_states(
     if errors.is_empty() { Ok(values) } else { Err(errors) }
 }
 
+/// By how much an expression is another one at the start if a state is moved.
+pub(crate) fn moved<'a>(
+    system: &'a System,
+    time: f64,
+    parameters: &'a [f64],
+    inputs: &'a [[f64; 2]],
+    locations: &'a [LocationIndex],
+    states: &[f64],
+) -> impl FnMut(NodeId, StateIndex, f64) -> f64 + use<'a> {
+    let states = states.iter().copied().map(Some).collect();
+    let mut start = Start { system, time, parameters, inputs, locations, states };
+    move |node, state, by| {
+        let still = start.value(node);
+        let Some(Some(value)) = start.states.get_mut(state.position()) else { return 0.0 };
+        let before = std::mem::replace(value, *value + by);
+        let moved = start.value(node);
+        start.states[state.position()] = Some(before);
+        (moved - still).abs()
+    }
+}
+
 /// What is known at the start.
 struct Start<'a> {
     system: &'a System,

@@ -2,9 +2,9 @@ use crate::backend::Evaluation;
 use crate::configure::configure;
 use crate::experiment::{Experiment, ExperimentError};
 use crate::failure::Failure;
-use crate::initial::initial_states;
+use crate::initial::{initial_states, moved};
 use crate::inputs::Inputs;
-use crate::ranges::Ranges;
+use crate::ranges::{Ranges, watch};
 use sophy_codegen::{Compiled, compile};
 use sophy_field::{
     AutomatonIndex, Changes, Engine, InputIndex, Journal, LocationIndex, SourceIndex, Start, StateIndex,
@@ -80,13 +80,16 @@ impl Run {
             return Err(StartError::Failure(Box::new(failure)));
         }
         let configured = configure(&system, experiment)?;
-        let compiled = compile(&system, &configured.knobs, configured.order)
+        let mut compiled = compile(&system, &configured.knobs, configured.order)
             .map_err(|error| vec![ExperimentError::new("knobs", error.to_string())])?;
         let ranges = Ranges::new(&system, &compiled.parameters)?;
         let mut inputs = Inputs::new(configured.signals, configured.events);
         let lines = inputs.begin(experiment.start);
         let locations = &configured.locations;
         let states = initial_states(&system, experiment, &compiled.parameters, &lines, locations, &ranges)?;
+        let Compiled { equations, parameters, .. } = &mut compiled;
+        let moved = moved(&system, experiment.start, parameters, &lines, locations, &states);
+        watch(&system, equations, parameters, &configured.quanta, moved);
         let equations = &compiled.equations;
         let mut settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
         settings.implicit = experiment.method.is_implicit();

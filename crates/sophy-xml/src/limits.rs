@@ -16,7 +16,7 @@ pub(crate) fn max_expansion(file: usize) -> usize {
 }
 
 /// Most messages about one file; one with more is hardly what it was taken for.
-pub(crate) const MAX_MESSAGES: usize = 500;
+pub(crate) const MAX_MESSAGES: usize = 250;
 
 /// Deepest nesting of references to declared entities.
 pub(crate) const MAX_ENTITY_DEPTH: usize = 10;

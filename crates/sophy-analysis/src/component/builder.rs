@@ -45,8 +45,6 @@ pub(crate) struct Builder<'b, 'a> {
     /// Values of parameters, where they are known.
     pub(crate) values: HashMap<VariableId, f64>,
     pub(crate) strays: Strays,
-    /// Numbers that variables can be, of those with a set of numbers.
-    pub(crate) sets: BTreeMap<VariableId, Rc<[f64]>>,
     /// Locations of the variables that exist there only.
     pub(crate) homes: BTreeMap<VariableId, usize>,
     /// Names that some `:=` section assigns.
@@ -78,7 +76,6 @@ impl<'b, 'a> Builder<'b, 'a> {
             structural: BTreeSet::new(),
             values: HashMap::new(),
             strays: Strays::default(),
-            sets: BTreeMap::new(),
             homes: BTreeMap::new(),
             assigned: assigned_names(declaration).into_keys().collect(),
             with_equation: equation_names(declaration).into_keys().collect(),

@@ -65,10 +65,10 @@ impl<'a> Builder<'_, 'a> {
         let ids = symbol.first.0..symbol.first.0 + symbol.shape.len() as u32;
         let known: Vec<f64> =
             ids.clone().filter_map(|id| self.values.get(&VariableId(id)).copied()).collect();
-        let bounds = self.range_of(Some(range)).bounds;
+        let allowed = self.range_of(Some(range)).allowed();
         for id in ids {
             if let Some(variable) = self.variables.get_mut(id as usize) {
-                variable.range = bounds;
+                variable.range.clone_from(&allowed);
             }
         }
         if let (Some(written), false) = (parameter.value, known.is_empty()) {

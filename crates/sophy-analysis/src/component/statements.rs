@@ -10,7 +10,9 @@ use crate::declarations::{
 };
 use crate::lower::{Elements, Place, Symbol, SymbolKind, SymbolValue, Typed};
 use sophy_diagnostics::Span;
-use sophy_ir::{Actions, Assignment, Emission, Leaf, Node, NodeId, VariableId, VariableKind};
+use sophy_ir::{
+    Actions, Allowed, Assignment, Emission, Leaf, Node, NodeId, Variable, VariableId, VariableKind,
+};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Where statements stand, and what they may do there.
@@ -199,19 +201,22 @@ impl<'a> Builder<'_, 'a> {
     /// Complains about a number outside the range of the variable that it is assigned to.
     fn check_assigned_range(&mut self, ids: &[VariableId], nodes: &[NodeId], at: Span) {
         for (&id, &node) in ids.iter().zip(nodes) {
-            if let Some(set) = self.sets.get(&id)
-                && self.outcomes(node).iter().any(|outcome| !set.contains(outcome))
-            {
-                let variable = &self.variables[id.0 as usize];
-                let (name, declared) = (variable.name.clone(), variable.span.unwrap_or(at));
-                self.report(hs0126_out_of_range::not_in_set(&name, at, declared));
-            }
-            let variable = &self.variables[id.0 as usize];
-            let (Some([low, high]), Some(value)) = (variable.range, self.known_value(node)) else { continue };
-            let (Some(low), Some(high)) = (self.known_value(low), self.known_value(high)) else { continue };
-            if !(low..=high).contains(&value) {
-                let (name, declared) = (variable.name.clone(), variable.span.unwrap_or(at));
-                self.report(hs0126_out_of_range::diagnostic(&name, value, low, high, at, declared));
+            let Variable { name, range, span, .. } = &self.variables[id.0 as usize];
+            let declared = span.unwrap_or(at);
+            let found = match range {
+                Some(Allowed::OneOf(set)) => {
+                    let strange = self.outcomes(node).iter().any(|outcome| !set.contains(outcome));
+                    strange.then(|| hs0126_out_of_range::not_in_set(name, at, declared))
+                }
+                Some(Allowed::Between(bounds)) => self.known_value(node).and_then(|value| {
+                    let [low, high] = self.known_bounds(*bounds)?;
+                    let outside = !(low..=high).contains(&value);
+                    outside.then(|| hs0126_out_of_range::diagnostic(name, value, low, high, at, declared))
+                }),
+                None => None,
+            };
+            if let Some(found) = found {
+                self.report(found);
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::declarations::{Dialect, RangeText, Spanned, TypeText};
 use crate::lower::{Elements, Place, Shape, Typed};
 use crate::units::{self, Measured};
 use sophy_diagnostics::Span;
-use sophy_ir::{NodeId, Quantity};
+use sophy_ir::{Allowed, NodeId, Quantity};
 
 /// Values a variable can have.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +15,14 @@ pub(crate) struct Range {
     pub(crate) numbers: Vec<f64>,
     /// What kind of values a set lists.
     pub(crate) quantity: Option<Quantity>,
+}
+
+impl Range {
+    /// The numbers it allows, if it is one of numbers.
+    pub(crate) fn allowed(&self) -> Option<Allowed> {
+        let set = (!self.numbers.is_empty()).then(|| Allowed::OneOf(self.numbers.clone()));
+        self.bounds.map(Allowed::Between).or(set)
+    }
 }
 
 /// A type as declared.

@@ -292,15 +292,11 @@ impl<'a> Builder<'_, 'a> {
 
     fn push_variables(&mut self, declared: &Declared<'_>, kind: VariableKind) {
         for k in 0..declared.shape.len() {
-            if !declared.range.numbers.is_empty() {
-                let id = VariableId(self.variables.len() as u32);
-                self.sets.insert(id, Rc::from(declared.range.numbers.as_slice()));
-            }
             self.variables.push(Variable {
                 name: format!("{}{}", declared.name.value, declared.shape.suffix(k)),
                 kind,
                 quantity: declared.port.quantity(),
-                range: declared.range.bounds,
+                range: declared.range.allowed(),
                 choices: declared.range.choices.clone(),
                 viewed: false,
                 structural: false,
@@ -474,7 +470,7 @@ impl<'a> Builder<'_, 'a> {
         }
     }
 
-    fn known_bounds(&self, [low, high]: [sophy_ir::NodeId; 2]) -> Option<[f64; 2]> {
+    pub(crate) fn known_bounds(&self, [low, high]: [sophy_ir::NodeId; 2]) -> Option<[f64; 2]> {
         Some([self.known_value(low)?, self.known_value(high)?])
     }
 

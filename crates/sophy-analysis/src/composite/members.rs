@@ -6,8 +6,8 @@ use crate::checks::{
 use crate::component::{Builder, Given, GivenValue};
 use crate::declarations::{ComponentKind, ExpressionText, MemberDeclaration, MemberItem, Spanned};
 use crate::lower::{Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, Typed};
-use sophy_diagnostics::Span;
-use sophy_ir::{Class, Member, NodeId, VariableId};
+use sophy_diagnostics::{Diagnostic, Span};
+use sophy_ir::{Allowed, Class, Graph, Member, NodeId, VariableId};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
@@ -273,6 +273,27 @@ fn given(builder: &mut Builder<'_, '_>, value: &Typed) -> GivenValue {
     GivenValue { shape: value.shape, values }
 }
 
+/// What is wrong with the value of a parameter, as far as its range is known.
+fn outside(
+    graph: &Graph,
+    allowed: &Allowed,
+    name: &str,
+    value: f64,
+    at: Span,
+    declared: Span,
+) -> Option<Diagnostic> {
+    match allowed {
+        Allowed::OneOf(set) => {
+            (!set.contains(&value)).then(|| hs0126_out_of_range::not_in_set(name, at, declared))
+        }
+        Allowed::Between([low, high]) => {
+            let (low, high) = (graph.as_number(*low)?, graph.as_number(*high)?);
+            let outside = !(low..=high).contains(&value);
+            outside.then(|| hs0126_out_of_range::diagnostic(name, value, low, high, at, declared))
+        }
+    }
+}
+
 /// Values of parameters, element by element.
 fn parameters<'a>(
     builder: &mut Builder<'_, 'a>,
@@ -294,16 +315,10 @@ fn parameters<'a>(
             let Some(id) = class.variable_named(&element) else { continue };
             parameters.push((id, node));
             let variable = class.variable(id);
-            let bounds = variable
-                .range
-                .and_then(|[low, high]| Some((class.graph.as_number(low)?, class.graph.as_number(high)?)));
-            if let (Some((low, high)), Some(value)) = (bounds, builder.known_value(node))
-                && !(low..=high).contains(&value)
-            {
+            if let (Some(allowed), Some(value)) = (&variable.range, builder.known_value(node)) {
                 let declared = variable.span.unwrap_or(name.span);
-                let found =
-                    hs0126_out_of_range::diagnostic(&name.value, value, low, high, text.span, declared);
-                builder.report(found);
+                let found = outside(&class.graph, allowed, &name.value, value, text.span, declared);
+                found.into_iter().for_each(|found| builder.report(found));
             }
         }
     }

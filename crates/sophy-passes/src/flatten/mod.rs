@@ -13,6 +13,7 @@ mod events;
 mod facts;
 mod initial;
 mod parameters;
+mod ranges;
 mod smooth;
 mod tables;
 mod tree;
@@ -42,6 +43,7 @@ pub fn flatten(model: &Model) -> Result<System, FlattenError> {
     flattener.variables();
     flattener.events();
     flattener.outputs()?;
+    flattener.ranges()?;
     flattener.states()?;
     flattener.automata();
     flattener.initial()?;

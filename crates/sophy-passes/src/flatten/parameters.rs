@@ -5,9 +5,7 @@ use super::facts::Becomes;
 use super::tree::prefixed;
 use super::{FlattenError, Flattener};
 use sophy_field::ParameterIndex;
-use sophy_ir::{
-    Body, ClassIndex, Leaf, Node, NodeId, Origin, Parameter, Range, Variable, VariableId, VariableKind,
-};
+use sophy_ir::{Body, Leaf, Node, NodeId, Origin, Parameter, Ranged, VariableId, VariableKind};
 
 impl Flattener<'_> {
     pub(super) fn parameters(&mut self) -> Result<(), FlattenError> {
@@ -81,20 +79,13 @@ impl Flattener<'_> {
             }
         }
         for (position, variable) in class.variables.iter().enumerate() {
-            if let Some(leaf) = self.parameters[at.base as usize + position] {
-                self.range(at.class, place, variable, leaf);
+            if let Some(leaf) = self.parameters[at.base as usize + position]
+                && let Node::Leaf(Leaf::Parameter(parameter)) = self.system.graph.node(leaf)
+            {
+                self.range(at.class, place, variable, Ranged::Parameter(parameter));
             }
         }
         Ok(())
-    }
-
-    /// Keeps the range of what has become a leaf, if one was declared.
-    pub(super) fn range(&mut self, class: ClassIndex, place: u32, variable: &Variable, leaf: NodeId) {
-        if let (Some(bounds), Node::Leaf(of)) = (variable.range, self.system.graph.node(leaf)) {
-            let context = Context { class, place, instance: None, location: None };
-            let bounds = bounds.map(|bound| self.number(context, bound));
-            self.system.ranges.push(Range { of, bounds });
-        }
     }
 
     /// Parameters that a value reads and that have no index yet.

@@ -53,7 +53,7 @@ impl<'a> Flattener<'a> {
         Ok(())
     }
 
-    fn output_row(&mut self, instance: u32, id: VariableId) -> Result<Option<Row>, FlattenError> {
+    pub(super) fn output_row(&mut self, instance: u32, id: VariableId) -> Result<Option<Row>, FlattenError> {
         let facts = self.tree.facts(instance);
         Ok(match facts.of(id) {
             Becomes::Value(value) => Some(self.value_row(instance, value)),

@@ -50,11 +50,7 @@ impl Flattener<'_> {
                     }
                     _ => continue,
                 };
-                let node = self.system.graph.leaf(leaf);
-                self.nodes[slot] = Some(node);
-                if let Leaf::State(_) = leaf {
-                    self.range(at.class, at.place, variable, node);
-                }
+                self.nodes[slot] = Some(self.system.graph.leaf(leaf));
             }
         }
     }

@@ -1,5 +1,5 @@
 use serde::Serialize;
-use sophy_ir::{Leaf, Model, NodeId, Origin, System, Value, Variable, evaluate};
+use sophy_ir::{Allowed, Leaf, Model, NodeId, Origin, System, Value, Variable, evaluate};
 
 /// A named quantity.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -14,7 +14,7 @@ pub struct Quantity {
     pub text: Option<String>,
     /// Least and greatest value, where they were declared, as text.
     pub range: Option<[String; 2]>,
-    /// Texts it can have, where they were declared.
+    /// Texts or numbers it can have, where they were declared, as they are written.
     pub choices: Vec<String>,
     /// Whether it is a parameter of the interface.
     pub knob: bool,
@@ -82,17 +82,24 @@ impl<'a> Values<'a> {
         let class = self.model.classes.get(origin.class.0 as usize);
         let declared = class.and_then(|class| class.variables.get(origin.variable.0 as usize));
         let value = value.filter(|value| value.is_finite());
-        let range = declared.and_then(|variable| variable.range).zip(class);
-        let text = |number: &usize| self.model.texts.get(*number).cloned().unwrap_or_default();
+        let allowed = declared.and_then(|variable| variable.range.as_ref());
+        let text = |number: &usize| format!("{:?}", self.model.texts.get(*number).map_or("", String::as_str));
         Quantity {
             name: name.to_owned(),
             unit: unit.cloned(),
             value,
             text: declared.zip(value).and_then(|(variable, value)| self.text(variable, value)),
-            range: range.map(|(range, class)| {
-                range.map(|bound| class.written(bound, sophy_ir::Quantity::Real, &self.model.texts))
-            }),
-            choices: declared.map(|variable| variable.choices.iter().map(text).collect()).unwrap_or_default(),
+            range: match (allowed, class) {
+                (Some(Allowed::Between(bounds)), Some(class)) => {
+                    let real = sophy_ir::Quantity::Real;
+                    Some(bounds.map(|bound| class.written(bound, real, &self.model.texts)))
+                }
+                _ => None,
+            },
+            choices: match allowed {
+                Some(Allowed::OneOf(numbers)) => numbers.iter().map(f64::to_string).collect(),
+                _ => declared.map(|variable| variable.choices.iter().map(text).collect()).unwrap_or_default(),
+            },
             knob: false,
             structural: false,
             documentation: declared.map(|variable| variable.documentation.clone()).unwrap_or_default(),

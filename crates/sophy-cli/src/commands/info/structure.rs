@@ -111,10 +111,9 @@ fn quantities(noun: &str, value_title: &str, quantities: &[Quantity], lists: Lis
             (None, None, "initial") => "not given".to_owned(),
             (None, None, _) => String::new(),
         };
-        let choices: Vec<String> = q.choices.iter().map(|choice| format!("{choice:?}")).collect();
         let within = match &q.range {
             Some([low, high]) => format!("in ({low}, {high})"),
-            None if !choices.is_empty() => format!("in {{{}}}", choices.join(", ")),
+            None if !q.choices.is_empty() => format!("in {{{}}}", q.choices.join(", ")),
             None => String::new(),
         };
         let documentation = q.documentation.split_whitespace().collect::<Vec<_>>().join(" ");
