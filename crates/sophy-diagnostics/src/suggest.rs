@@ -29,6 +29,9 @@ fn closeness(name: &str, candidate: &str) -> Option<usize> {
     }
 }
 
+/// The longest text that is looked at letter by letter; the work grows with the square of it.
+const MOST_LETTERS: usize = 200;
+
 fn closeness_of_words(name: &str, candidate: &str) -> Option<usize> {
     let (lower, lower_candidate) = (name.to_lowercase(), candidate.to_lowercase());
     if lower == lower_candidate {
@@ -36,7 +39,7 @@ fn closeness_of_words(name: &str, candidate: &str) -> Option<usize> {
     }
     let (letters, others) = (name.chars().count(), candidate.chars().count());
     let limit = letters.max(others).div_ceil(3);
-    if letters > 1 && letters.abs_diff(others) <= limit {
+    if letters > 1 && letters.max(others) <= MOST_LETTERS && letters.abs_diff(others) <= limit {
         let distance = edit_distance(&lower, &lower_candidate);
         if distance <= limit && distance < letters {
             return Some(1 + distance);

@@ -4,7 +4,7 @@ use crate::error::{SyntaxError, codes};
 use crate::grammar::blocks::{self, Holds};
 use crate::grammar::expressions::expression;
 use crate::grammar::items::{
-    at_name, clause, close, eat, expect, expect_before, mark, missing, name, once, semicolon, skip,
+    at_name, clause, close, eat, expect, expect_before, mark, missing, name, once, semicolon, shape, skip,
     type_clause, unit, unknown_word, value_range,
 };
 use crate::grammar::{composition, locations, statements};
@@ -186,13 +186,35 @@ fn variable(p: &mut Parser<'_>) {
     p.start(SyntaxKind::Variable);
     p.bump();
     if name(p, "a name") {
+        extents(p);
         while eat(p, SyntaxKind::Comma) {
             name(p, "a name");
+            extents(p);
         }
     }
     attributes(p);
     semicolon(p);
     p.finish_node();
+}
+
+/// Extents behind a name, as other languages have them.
+fn extents(p: &mut Parser<'_>) {
+    if p.current() != SyntaxKind::LeftBracket {
+        return;
+    }
+    let (name, start) = (p.previous().map_or("", |token| p.text_of(token.range())), p.range().start);
+    let first = p.error_count();
+    p.start(SyntaxKind::Type);
+    shape(p, SyntaxKind::Shape);
+    p.finish_node();
+    if p.error_count() == first {
+        let range = start..p.end_of_previous();
+        let written = p.text_of(range.clone());
+        p.error(
+            SyntaxError::new(codes::MISPLACED, range, "the extents of a variable stand behind its type")
+                .help(format!("write `{name} : real{written}`")),
+        );
+    }
 }
 
 /// The type, range, value and unit of a variable, in any order.

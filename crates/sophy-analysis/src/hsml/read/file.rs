@@ -87,7 +87,13 @@ impl Reader<'_> {
 
     pub(super) fn type_text(&mut self, view: Option<ast::Type>) -> Option<TypeText> {
         let view = view?;
-        Some(TypeText { name: self.name(view.name(), &view), shape: self.expressions(view.shape()) })
+        let shape = self.expressions(view.shape());
+        let name = match view.name() {
+            // The parser has said that it is missing.
+            None if !shape.is_empty() => Spanned::new("real".to_owned(), self.span(view.range())),
+            name => self.name(name, &view),
+        };
+        Some(TypeText { name, shape })
     }
 
     pub(super) fn range(&mut self, view: Option<ValueRange>) -> Option<RangeText> {
