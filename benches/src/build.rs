@@ -61,18 +61,18 @@ fn build(name: &'static str, mut system: System) -> Built {
         quanta: vec![QuantumRule { pattern: "*".to_owned(), quantum: Quantum::absolute(1e-3) }],
         ..Experiment::default()
     };
-    let before = memory::live();
-    memory::forget_peak();
     let begin = Instant::now();
     let run = Run::new(Arc::clone(&system), &experiment).expect("it starts");
     let start_ms = 1e3 * begin.elapsed().as_secs_f64();
+    drop(run);
+    let (run, peak) = memory::peak_of(|| Run::new(Arc::clone(&system), &experiment).expect("it starts"));
     Built {
         system: name,
         states: system.states.len(),
         programs: run.compiled().equations.programs.len() - 1,
         lift_ms,
         start_ms,
-        bytes: memory::live() - before,
-        peak: memory::peak() - before,
+        bytes: memory::held(),
+        peak,
     }
 }

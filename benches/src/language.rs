@@ -22,6 +22,8 @@ pub struct Told {
     pub states: usize,
     /// Each stage with its time, ms.
     pub stages: Vec<(&'static str, f64)>,
+    /// Memory of the model, the system and the run that is ready, bytes.
+    pub held: usize,
     /// The most memory that was needed at a time, bytes.
     pub peak: usize,
 }
@@ -38,33 +40,30 @@ impl Told {
     }
 }
 
-/// Texts that are checked, and texts that are made ready.
-pub fn bench() -> Vec<Told> {
-    let mut rows = Vec::new();
-    for copies in [200, 2000] {
-        rows.push(fastest(|| tell("varied components", &varied(copies), false)));
-    }
-    for cells in [333, 3333, 33_333] {
-        rows.push(fastest(|| tell("copies", &ring(cells), true)));
-    }
-    rows.push(tell("copies", &ring(333_333), true));
-    rows.push(tell("distinct equations", &distinct(100_000), true));
-    rows
+/// Texts that are checked, and texts that are made ready; all of them, or those of one kind.
+pub fn bench(only: Option<&str>) -> Vec<Told> {
+    let mut texts = Vec::new();
+    texts.extend([200, 2000].map(|copies| ("varied components", varied(copies), false)));
+    texts.extend([333, 3333, 33_333, 333_333].map(|cells| ("copies", ring(cells), true)));
+    texts.push(("distinct equations", distinct(100_000), true));
+    texts.retain(|(name, ..)| only.is_none_or(|only| name.starts_with(only)));
+    texts.iter().map(|(name, text, ready)| median(name, text, *ready)).collect()
 }
 
-fn fastest(tell: impl Fn() -> Told) -> Told {
-    (0..3).map(|_| tell()).min_by(|a, b| a.total_ms().total_cmp(&b.total_ms())).expect("three")
+/// The median of five by the time in all; memory is counted in a run of its own.
+fn median(name: &'static str, text: &str, ready: bool) -> Told {
+    let mut told: Vec<Told> = (0..5).map(|_| tell(name, text, ready)).collect();
+    told.sort_unstable_by(|a, b| a.total_ms().total_cmp(&b.total_ms()));
+    let (Told { held, .. }, peak) = memory::peak_of(|| tell(name, text, ready));
+    Told { held, peak, ..told.swap_remove(2) }
 }
 
 /// Takes `text` as far as it goes.
 fn tell(name: &'static str, text: &str, ready: bool) -> Told {
-    let lines = text.lines().count();
-    let before = memory::live();
-    memory::forget_peak();
     let mut stages = Vec::new();
     let model = model(text, &mut stages);
-    let states = if ready { make_ready(&model, &mut stages) } else { 0 };
-    Told { text: name, lines, states, stages, peak: memory::peak() - before }
+    let (states, held) = if ready { make_ready(&model, &mut stages) } else { (0, memory::held()) };
+    Told { text: name, lines: text.lines().count(), states, stages, held, peak: 0 }
 }
 
 fn model(text: &str, stages: &mut Vec<(&'static str, f64)>) -> Model {
@@ -79,7 +78,8 @@ fn model(text: &str, stages: &mut Vec<(&'static str, f64)>) -> Model {
     model.expect("a model without mistakes")
 }
 
-fn make_ready(model: &Model, stages: &mut Vec<(&'static str, f64)>) -> usize {
+/// The number of states, and the memory when the run is ready.
+fn make_ready(model: &Model, stages: &mut Vec<(&'static str, f64)>) -> (usize, usize) {
     let mut system = timed("flatten", stages, || flatten(model)).expect("no loops");
     timed("lift", stages, || {
         for pass in PIPELINE {
@@ -98,7 +98,7 @@ fn make_ready(model: &Model, stages: &mut Vec<(&'static str, f64)>) -> usize {
     if let Some((_, ms)) = stages.last_mut() {
         *ms = (*ms - compile).max(0.0);
     }
-    run.system().states.len()
+    (run.system().states.len(), memory::held())
 }
 
 fn timed<R>(name: &'static str, stages: &mut Vec<(&'static str, f64)>, stage: impl FnOnce() -> R) -> R {

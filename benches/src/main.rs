@@ -1,7 +1,8 @@
 //! Sophy beside hand-written loops of the same algorithm, in one process, alternating.
 //!
 //! `cargo xtask bench` builds and runs this; the table goes to the terminal and to `results/latest.{md,json}`. With
-//! the word `language` it measures the language alone, with `engine` the engines alone, and writes no file.
+//! the word `language` it measures the language alone (`language copies`: one kind of text), with `engine` the engines
+//! alone, and writes no file.
 //! Machines are noisy: read the ratios, which compare neighbours in time, and never a speed without the error
 //! that stands beside it.
 
@@ -16,9 +17,10 @@ mod report;
 
 fn main() -> std::io::Result<()> {
     let engines = || [hopper::bench(), oscillator::bench()].concat();
-    match std::env::args().nth(1).as_deref() {
+    let mut words = std::env::args().skip(1);
+    match words.next().as_deref() {
         Some("language") => {
-            print!("{}", report::told_markdown(&language::bench()));
+            print!("{}", report::told_markdown(&language::bench(words.next().as_deref())));
             return Ok(());
         }
         Some("engine") => {
@@ -29,7 +31,7 @@ fn main() -> std::io::Result<()> {
     }
     let results = engines();
     let built = build::bench();
-    let told = language::bench();
+    let told = language::bench(None);
     let tables = [report::markdown(&results), report::built_markdown(&built), report::told_markdown(&told)];
     let markdown = tables.join("\n");
     print!("{markdown}");

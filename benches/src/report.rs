@@ -53,15 +53,15 @@ pub fn built_markdown(built: &[Built]) -> String {
 /// From text to started run, for people.
 pub fn told_markdown(told: &[Told]) -> String {
     let mut text = String::from(
-        "| language | lines | states | lines per s | in all, s | ns per state or line | of which | peak, B per state or line |\n\
-         | --- | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
+        "| language | lines | states | lines per s | in all, s | ns per state or line | of which | B per state or line | at the peak |\n\
+         | --- | ---: | ---: | ---: | ---: | ---: | --- | ---: | ---: |\n",
     );
     for t in told {
         let each = |ms: f64| 1e6 * ms / t.units() as f64;
         let stages: Vec<String> =
             t.stages.iter().map(|(stage, ms)| format!("{stage} {:.0}", each(*ms))).collect();
         text += &format!(
-            "| {} | {} | {} | {:.0} | {:.3} | {:.0} | {} | {} |\n",
+            "| {} | {} | {} | {:.0} | {:.3} | {:.0} | {} | {} | {} |\n",
             t.text,
             t.lines,
             t.states,
@@ -69,6 +69,7 @@ pub fn told_markdown(told: &[Told]) -> String {
             1e-3 * t.total_ms(),
             each(t.total_ms()),
             stages.join(", "),
+            t.held / t.units(),
             t.peak / t.units(),
         );
     }
@@ -86,6 +87,7 @@ pub fn json(results: &[Measured], built: &[Built], told: &[Told]) -> String {
             "lines": t.lines,
             "states": t.states,
             "stages_ms": stages,
+            "bytes": t.held,
             "peak_bytes": t.peak,
         })
     });
