@@ -139,6 +139,21 @@ impl Diagnostics {
         self.list.extend(other.list);
     }
 
+    /// Leaves out what was said from `first` on and before, too.
+    pub fn leave_out_repetitions(&mut self, first: usize) {
+        for _ in first..self.list.len() {
+            let candidate = self.list.remove(first);
+            if !self.list.contains(&candidate) {
+                self.list.push(candidate);
+            }
+        }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
     /// Whether there is an error among them.
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|d| d.severity == Severity::Error)

@@ -86,6 +86,7 @@ impl<'a> Parser<'a> {
         if self.has_said_enough() {
             return false;
         }
+        let said = self.diagnostics.len();
         match rest.as_bytes() {
             [b'<', b'!', b'-', b'-', ..] => self.comment(),
             [b'<', b'!', b'[', ..] if rest.starts_with("<![CDATA[") => self.section(),
@@ -98,12 +99,16 @@ impl<'a> Parser<'a> {
             [b'&', ..] => self.reference(),
             _ => self.text(),
         }
+        if self.inputs.len() > 1 && self.diagnostics.len() > said {
+            // The text of an entity is read as often as it is referred to; its mistakes are told once.
+            self.diagnostics.leave_out_repetitions(said);
+        }
         true
     }
 
     /// Whether there are so many messages that reading stops here.
     pub(crate) fn has_said_enough(&mut self) -> bool {
-        self.stopped |= self.diagnostics.iter().count() >= MAX_MESSAGES;
+        self.stopped |= self.diagnostics.len() >= MAX_MESSAGES;
         self.stopped
     }
 
