@@ -12,7 +12,7 @@ pub(crate) const MAX_NODES: usize = 1 << 20;
 /// Most bytes that the references to declared entities may expand to, all together: in proportion to the file, so
 /// that a few lines do not grow into a large document.
 pub(crate) fn max_expansion(file: usize) -> usize {
-    (16 * file).clamp(1 << 10, 1 << 20)
+    (8 * file).clamp(1 << 9, 1 << 20)
 }
 
 /// Most messages about one file; one with more is hardly what it was taken for.
