@@ -15,7 +15,8 @@ use std::rc::Rc;
 pub enum Root<'n> {
     /// The component of this name.
     Named(&'n str),
-    /// The one SYSTEM of the file, or its one component; an error if that is not clear.
+    /// The SYSTEM of the file that is in no other one, or if there is none the component that is in no other one; an
+    /// error if that is not clear.
     Implied,
     /// The same, but if it is not clear there is no model, and nothing is said: the file is a library.
     IfClear,
@@ -134,7 +135,19 @@ fn find_root(
     }
     let systems: Vec<usize> =
         own.iter().copied().filter(|&k| library.components[k].kind == ComponentKind::System).collect();
-    let candidates = if systems.is_empty() { own } else { systems };
+    let mut candidates = if systems.is_empty() { own } else { systems };
+    if candidates.len() > 1 {
+        let mut contained = vec![false; library.components.len()];
+        for &k in &candidates {
+            members_of(library.components[k], library)
+                .into_iter()
+                .for_each(|member| contained[member] = true);
+        }
+        // In a circle everything is contained.
+        if candidates.iter().any(|&k| !contained[k]) {
+            candidates.retain(|&k| !contained[k]);
+        }
+    }
     match (candidates.as_slice(), root) {
         (&[only], _) => Some(only),
         (_, Root::IfClear) => None,

@@ -143,7 +143,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "N", help_heading = "Engine")]
     pub(crate) seed: Option<u64>,
 
-    /// The component to run [default: the SYSTEM of the file, or its only component]
+    /// The component to run [default: the SYSTEM of the file, or the component that contains the others]
     #[arg(long, value_name = "NAME", help_heading = "Model")]
     pub(crate) system: Option<String>,
     /// Set a parameter of the model, a knob or another one that does not decide its structure
@@ -235,7 +235,7 @@ pub(crate) struct Check {
     /// Models (.hsml, .xml) and experiments (.toml)
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
-    /// The component that is to run [default: the SYSTEM of a file, or its only component, if there is one]
+    /// The component that is to run [default: the SYSTEM of a file, or the component that contains the others]
     #[arg(long, value_name = "NAME")]
     pub(crate) system: Option<String>,
 }
@@ -244,7 +244,7 @@ pub(crate) struct Check {
 pub(crate) struct Info {
     /// The model (.hsml, .xml), or an experiment (.toml) that names it
     pub(crate) file: PathBuf,
-    /// The component that is to run [default: the SYSTEM of the file, or its only component]
+    /// The component that is to run [default: the SYSTEM of the file, or the component that contains the others]
     #[arg(long, value_name = "NAME")]
     pub(crate) system: Option<String>,
     /// Print long lists in full
@@ -315,7 +315,7 @@ pub(crate) struct Convert {
     /// What to write; the extension tells the format
     #[arg(value_name = "OUT")]
     pub(crate) output: PathBuf,
-    /// The component that becomes SOPHY XML [default: the SYSTEM of the file, or its only component]
+    /// The component that becomes SOPHY XML [default: the SYSTEM of the file, or the component that contains the others]
     #[arg(long, value_name = "NAME")]
     pub(crate) system: Option<String>,
 }

@@ -6,6 +6,9 @@ use sophy_diagnostics::{Code, Diagnostic, Span};
 
 pub(crate) const CODE: Code = Code("HS0142");
 
+/// How many candidates are listed.
+const SHOWN: usize = 8;
+
 /// There is no component at all.
 pub(crate) fn none(span: Span) -> Diagnostic {
     Diagnostic::error(CODE, span, "there is no component in this file")
@@ -21,14 +24,18 @@ pub(crate) fn unknown(name: &str, components: &[&ComponentDeclaration], span: Sp
 
 /// Several could be meant.
 pub(crate) fn ambiguous(candidates: &[&ComponentDeclaration]) -> Diagnostic {
-    let names: Vec<String> =
-        candidates.iter().map(|component| format!("`{}`", component.name.value)).collect();
+    let shown = &candidates[..candidates.len().min(SHOWN)];
+    let names: Vec<String> = shown.iter().map(|component| format!("`{}`", component.name.value)).collect();
+    let more = match candidates.len() - shown.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
     let mut error = Diagnostic::error(
         CODE,
         candidates[0].name.span,
-        format!("several components could be run: {}", names.join(", ")),
+        format!("several components could be run: {}{more}", names.join(", ")),
     );
-    for component in &candidates[1..] {
+    for component in &shown[1..] {
         error = error.label(component.name.span, "or this one");
     }
     error.help(
