@@ -489,14 +489,17 @@ fn unexpected(p: &mut Parser<'_>) {
     let range = p.range();
     let text = p.text_of(range.clone());
     let mut error = SyntaxError::new(codes::UNEXPECTED, range, format!("`{text}` is not expected here"));
-    if p.current() == SyntaxKind::Comma {
-        let number_before = p.previous().filter(|token| token.kind == SyntaxKind::Number);
-        error = match number_before {
-            Some(number) if p.next() == SyntaxKind::Number => {
-                error.help(format!("a decimal number has a point: `{}.…`", p.text_of(number.range())))
-            }
-            _ => error.help("a comma stands only between the arguments of a function"),
-        };
-    }
+    let number = p.previous().filter(|token| token.kind == SyntaxKind::Number);
+    let number = number.map(|token| p.text_of(token.range()));
+    error = match (p.current(), number) {
+        (SyntaxKind::Comma, Some(number)) if p.next() == SyntaxKind::Number => {
+            error.help(format!("a decimal number has a point: `{number}.…`"))
+        }
+        (SyntaxKind::Comma, _) => error.help("a comma stands only between the arguments of a function"),
+        (SyntaxKind::String, Some(number)) => error.help(format!(
+            "a number in an expression has no unit: write `{number}`, or before the component `constant NAME = {number} {text};`"
+        )),
+        _ => error,
+    };
     p.error(error);
 }
