@@ -69,7 +69,8 @@ impl State {
         let d0 = self.x_at(t) - self.q_at(t);
         let d1 = self.slope_at(t) - self.q[1];
         let d2 = self.x[2];
-        let (d0, d1, d2) = if d2 < 0.0 || (d2 == 0.0 && d1 < 0.0) { (-d0, -d1, -d2) } else { (d0, d1, d2) };
+        let side = if d2 < 0.0 || (d2 == 0.0 && d1 < 0.0) { -1.0 } else { 1.0 };
+        let (d0, d1, d2) = (side * d0, side * d1, side * d2);
         let (up, down) = (quantum - d0, quantum + d0);
         if up <= 0.0 || down <= 0.0 {
             return 0.0;
@@ -77,13 +78,13 @@ impl State {
         if d2 == 0.0 {
             return if d1 > 0.0 { up / d1 } else { f64::INFINITY };
         }
-        if d1 < 0.0 {
-            let low = d1 * d1 - 4.0 * d2 * down;
-            if low >= 0.0 {
-                return 2.0 * down / (low.sqrt() - d1);
-            }
-            return ((d1 * d1 + 4.0 * d2 * up).sqrt() - d1) / (2.0 * d2);
-        }
-        2.0 * up / (d1 + (d1 * d1 + 4.0 * d2 * up).sqrt())
+        let square = d1 * d1;
+        let low = square - 4.0 * d2 * down;
+        let falls = d1 < 0.0;
+        let leaves_below = falls && low >= 0.0;
+        let root = (if leaves_below { low } else { square + 4.0 * d2 * up }).sqrt() + d1.abs();
+        let edge = if leaves_below { down } else { up };
+        let (above, below) = if falls && !leaves_below { (root, 2.0 * d2) } else { (2.0 * edge, root) };
+        above / below
     }
 }

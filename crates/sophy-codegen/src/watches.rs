@@ -1,9 +1,9 @@
 //! Watches: who decides what, and who reads it.
 
 use crate::blocks::Gather;
-use crate::memory::source_of;
-use sophy_field::{StairIndex, Table, TruthIndex, WatchCode, WatchIndex, sign_bit};
-use sophy_ir::{Comparison, Leaf, System};
+use crate::memory::{Side, source_of};
+use sophy_field::{Operand, SourceIndex, StairIndex, Table, TruthIndex, WatchCode, WatchIndex, sign_bit};
+use sophy_ir::{Binary, Comparison, Leaf, Node, NodeId, System};
 use sophy_segment::Sign;
 
 /// The web of watches, truths and stairs of a system.
@@ -97,9 +97,28 @@ impl Watching {
             affine: watch.affine,
             clock: gather.is_clock(watch),
             formula: gather.formula(watch.difference, false),
+            level: level(gather, watch.difference),
             left: gather.formula(watch.left, false),
             right: gather.formula(watch.right, false),
         }
+    }
+}
+
+/// A source, or a source less what is a number between events.
+fn level(gather: &mut Gather<'_>, difference: NodeId) -> Option<(SourceIndex, Option<u32>)> {
+    let (system, layout) = (gather.system, gather.memory.layout);
+    let source = |node: NodeId| match system.graph.node(node) {
+        Node::Leaf(leaf) => source_of(leaf, layout),
+        _ => None,
+    };
+    match system.graph.node(difference) {
+        Node::Binary(Binary::Subtract, a, b) => {
+            match (source(a)?, gather.memory.place(system, Side::Series, b)?) {
+                (source, Operand::Scalar(at)) => Some((source, Some(at))),
+                (_, Operand::Jet(_)) => None,
+            }
+        }
+        _ => source(difference).map(|source| (source, None)),
     }
 }
 

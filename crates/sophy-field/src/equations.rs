@@ -180,6 +180,8 @@ pub struct AutomatonCode {
 pub struct WatchCode {
     /// Its value.
     pub formula: Formula,
+    /// The same, where it is one source, or one less a number: the source, and where the number stands.
+    pub level: Option<(SourceIndex, Option<u32>)>,
     /// Its two sides, for the comparison within rounding on entry.
     pub left: Formula,
     /// See `left`.

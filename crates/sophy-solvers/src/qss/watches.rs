@@ -446,7 +446,14 @@ impl<const ORDER: usize> Qss<ORDER> {
         watch: WatchIndex,
         t: f64,
     ) -> Result<[f64; 3], Fault> {
-        let [value, c1, c2] = self.value_of(e, &e.watches[watch.position()].formula, t, ORDER + 1);
+        let code = &e.watches[watch.position()];
+        let [value, c1, c2] = match code.level {
+            Some((source, number)) => {
+                let [value, c1, c2] = self.records[source.position()].jet_at(t);
+                [number.map_or(value, |at| value - self.memory[at as usize]), c1, c2]
+            }
+            None => self.value_of(e, &code.formula, t, ORDER + 1),
+        };
         if !value.is_finite() {
             return Err(Fault::WatchNotFinite { watch, time: t, value });
         }
