@@ -15,6 +15,8 @@ pub(crate) fn match_brackets(
     let mut open: Vec<(SyntaxKind, Range<usize>)> = Vec::new();
     let mut first: Option<Range<usize>> = None;
     let mut ends = Vec::new();
+    // Braces of blocks that are still open.
+    let mut blocks = 0;
     for index in 0..tokens.len() {
         let (kind, range) = (tokens[index].kind, tokens[index].range());
         if kind.is_trivia() {
@@ -22,6 +24,23 @@ pub(crate) fn match_brackets(
         }
         let in_vector = matches!(open.last(), Some((SyntaxKind::LeftBracket, _)));
         if mode == Mode::File && ends_statement(kind) && !(in_vector && is_row_end(&tokens[index..])) {
+            if kind == SyntaxKind::Semicolon
+                && let Some((SyntaxKind::LeftBrace, brace)) = open.last().cloned()
+                && let Some(at) = tokens[..index].iter().rposition(|token| token.range() == brace)
+            {
+                // As in C.
+                open.pop();
+                blocks += 1;
+                let behind = tokens[..at].iter().rfind(|token| !token.kind.is_trivia());
+                let is_else = behind.is_some_and(|token| token.kind == SyntaxKind::Else);
+                tokens[at].kind = if is_else { SyntaxKind::Unknown } else { SyntaxKind::Then };
+                if !is_else {
+                    errors.push(
+                        SyntaxError::new(codes::UNEXPECTED, brace, "`{` does not begin a block")
+                            .help("write `if condition then … else … end if;`, without braces"),
+                    );
+                }
+            }
             unclosed(text, open.drain(..), errors);
             ends.push(index);
             first = None;
@@ -42,6 +61,10 @@ pub(crate) fn match_brackets(
                     Some(at) => {
                         unclosed(text, open.drain(at + 1..), errors);
                         open.truncate(at);
+                    }
+                    None if kind == SyntaxKind::RightBrace && blocks > 0 => {
+                        tokens[index].kind = SyntaxKind::Unknown;
+                        blocks -= 1;
                     }
                     None => {
                         tokens[index].kind = SyntaxKind::Unknown;

@@ -53,10 +53,17 @@ pub(crate) fn lex(text: &str, mode: Mode) -> (Vec<Token>, Errors) {
     if mode == Mode::File {
         words_in_place(&mut tokens);
     }
+    let mut before = None;
     for token in &tokens {
         if let Some(error) = misspelling(token.kind, &text[token.range()], &token.range(), mode) {
-            errors.push(error);
+            let primed =
+                before.filter(|_| token.kind == SyntaxKind::QuotedName && error.code == codes::QUOTE);
+            errors.push(match primed {
+                Some(name) => error.help(format!("the derivative of `{name}` is `der({name})`")),
+                None => error,
+            });
         }
+        before = (token.kind == SyntaxKind::Name).then(|| &text[token.range()]);
     }
     (tokens, errors)
 }

@@ -212,6 +212,18 @@ impl<'t> Parser<'t> {
         self.text_of(self.range())
     }
 
+    /// The text of the significant token after the current one.
+    pub(crate) fn word_behind(&self) -> &'t str {
+        let behind = self.significant(self.significant(self.position) + 1);
+        self.tokens.get(behind).map_or("", |token| self.text_of(token.range()))
+    }
+
+    /// The kind of the second significant token after the current one.
+    pub(crate) fn after_next(&self) -> SyntaxKind {
+        let next = self.significant(self.significant(self.position) + 1);
+        self.kind_at(self.significant(next + 1))
+    }
+
     /// Whether the current token is the name `word`; only its place makes it a keyword.
     pub(crate) fn at_word(&self, word: &str) -> bool {
         self.current() == SyntaxKind::Name && self.word() == word

@@ -67,7 +67,12 @@ pub(crate) fn section_of(p: &mut Parser<'_>, kind: SyntaxKind) {
     use SyntaxKind as K;
     match kind {
         K::DeclarationsKeyword => simple(p, K::Declarations, "declarations", declaration),
-        K::InitialKeyword if p.next() == K::LocationKeyword => locations::initial_location(p),
+        K::InitialKeyword
+            if p.next() == K::LocationKeyword
+                || matches!(p.next(), K::Name | K::QuotedName) && p.after_next() == K::Semicolon =>
+        {
+            locations::initial_location(p);
+        }
         K::InitialKeyword => simple(p, K::StatementSection, "initial", statements::statement),
         K::UpdateKeyword => simple(p, K::StatementSection, "update", statements::statement),
         K::DynamicsKeyword => simple(p, K::EquationSection, "dynamics", statements::explicit_equation),

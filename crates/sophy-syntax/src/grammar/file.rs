@@ -292,6 +292,17 @@ fn port(p: &mut Parser<'_>) {
     }
     p.bump();
     if expect(p, SyntaxKind::LeftParenthesis, "`(`", "write `input(name, signal);`") {
+        let is_type = ["signal", "real", "integer", "boolean", "string", "event"].contains(&p.word());
+        if is_type && matches!(p.next(), SyntaxKind::Name | SyntaxKind::QuotedName) {
+            let (range, kind, named) = (p.range(), p.word(), p.word_behind());
+            p.error(
+                SyntaxError::new(codes::MISPLACED, range, format!("`{kind}` stands before the name"))
+                    .help(format!("write `({named}, {kind})`")),
+            );
+            p.start(SyntaxKind::Type);
+            name(p, "a type");
+            p.finish_node();
+        }
         name(p, "a name");
         let mut seen = Vec::new();
         while eat(p, SyntaxKind::Comma) {

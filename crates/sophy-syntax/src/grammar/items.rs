@@ -92,11 +92,19 @@ pub(crate) fn missing(p: &mut Parser<'_>, what: &str, help: &str) {
     p.error(SyntaxError::new(codes::MISSING_PART, range, format!("{what} is missing here")).help(help));
 }
 
+/// Words that other languages begin a declaration with.
+const TYPES: &[&str] =
+    &["real", "integer", "boolean", "string", "signal", "float", "double", "int", "bool", "var"];
+
 /// Reports that the current word is not one of `known`, of which `place` allows one.
 pub(crate) fn unknown_word(p: &mut Parser<'_>, place: &str, known: &[&str]) {
     let word = p.word();
     let range = p.range();
     let error = SyntaxError::new(codes::UNKNOWN_WORD, range, format!("`{word}` does not start {place}"));
+    if known.contains(&"state") && TYPES.contains(&word.to_lowercase().as_str()) {
+        let help = "the type stands behind the name: `state x : real := 1;`, `local y : real;`";
+        return p.error(error.help(help));
+    }
     p.error(match closest(word, known.iter().copied()).filter(|_| word.len() > 1) {
         Some(meant) => error.help(format!("did you mean `{meant}`?")),
         None => error.help(format!("it starts with {}", quoted_words(known, "or"))),

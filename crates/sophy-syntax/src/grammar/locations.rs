@@ -1,10 +1,11 @@
 //! Locations and their transitions.
 
+use crate::error::{SyntaxError, codes};
 use crate::grammar::blocks::{self, Holds};
 use crate::grammar::body::{meant_section, misplaced, section_of};
 use crate::grammar::expressions::expression;
 use crate::grammar::items::{
-    at_name, clause, eat, expect, missing, name, once, semicolon, unexpected, unknown_word,
+    at_name, clause, eat, expect, missing, name, once, semicolon, skip_words, unexpected, unknown_word,
 };
 use crate::grammar::statements;
 use crate::kinds::SyntaxKind;
@@ -19,7 +20,9 @@ const CLAUSES: &[&str] = &["priority", "goto"];
 pub(crate) fn initial_location(p: &mut Parser<'_>) {
     p.start(SyntaxKind::InitialLocation);
     p.bump();
-    p.bump();
+    if !eat(p, SyntaxKind::LocationKeyword) {
+        missing(p, "`location`", &format!("write `initial location {};`", p.word()));
+    }
     name(p, "the name of a location");
     semicolon(p);
     p.finish_node();
@@ -102,7 +105,8 @@ fn transition(p: &mut Parser<'_>) {
         }
         p.finish_node();
     }
-    let is_statement = at_name(p) && matches!(p.next(), SyntaxKind::Assign | SyntaxKind::LeftBracket);
+    let is_statement = at_name(p)
+        && (p.word() == "emit" || matches!(p.next(), SyntaxKind::Assign | SyntaxKind::LeftBracket));
     if is_statement {
         missing(p, "`do`", "write `goto Location do statements end transition;`");
     }
@@ -112,6 +116,14 @@ fn transition(p: &mut Parser<'_>) {
         blocks::close(p);
     } else {
         semicolon(p);
+        if p.current() == SyntaxKind::EndKeyword && p.word_behind() == "transition" {
+            let range = p.range();
+            p.error(
+                SyntaxError::new(codes::WRONG_END, range, "a transition without `do` ends with its `;`")
+                    .help("delete this `end transition;`"),
+            );
+            skip_words(p);
+        }
     }
     p.finish_node();
 }

@@ -96,6 +96,13 @@ fn starts_side(kind: SyntaxKind) -> bool {
     )
 }
 
+/// `x` of `dx/dt`.
+fn derivative(left: &str) -> Option<&str> {
+    let (above, below) = left.split_once('/')?;
+    let name = above.trim().strip_prefix('d')?;
+    (below.trim() == "dt" && !name.is_empty()).then_some(name)
+}
+
 /// `l = r;`.
 fn equality(p: &mut Parser<'_>, explicit: bool) {
     p.start(SyntaxKind::Equation);
@@ -106,13 +113,17 @@ fn equality(p: &mut Parser<'_>, explicit: bool) {
     match p.current() {
         SyntaxKind::Equal if !left_is_target => {
             let left = left..p.end_of_previous();
+            let help = match derivative(p.text_of(left.clone())) {
+                Some(name) => format!("write `der({name}) = …`"),
+                None => "solve it for one variable, or put it in `constraints`".to_owned(),
+            };
             p.error(
                 SyntaxError::new(
                     codes::LEFT_SIDE,
                     left,
                     "the left side of this equation is not `x`, `x[i]` or `der(x)`",
                 )
-                .help("solve it for one variable, or put it in `constraints`"),
+                .help(help),
             );
         }
         SyntaxKind::Equal => {}
