@@ -23,6 +23,10 @@ pub(crate) fn diagnostic(kind: ComponentKind, what: &str, name: &str, span: Span
 /// A section that this kind of component does not have.
 pub(crate) fn section(kind: ComponentKind, section: &str, suits: &str, span: Span) -> Diagnostic {
     let message = format!("{} has no `{section}` section", kind_with_article(kind));
+    if (kind, section) == (ComponentKind::Dtc, "dynamics") {
+        return Diagnostic::error(CODE, span, message)
+            .help("a DTC computes at its executions: write `update … end update;`, with `:=`");
+    }
     Diagnostic::error(CODE, span, message).help(format!("move it to {suits}, or make this component one"))
 }
 

@@ -60,6 +60,15 @@ pub(crate) fn outside(name: &Spanned<String>, index: i64, extent: u32, span: Spa
         .help(format!("copies are counted from 1 to {extent}"))
 }
 
+/// `cell[50] : Cell` declares one cell.
+pub(crate) fn one_element(name: &Spanned<String>, indices: &[u32], declared: Span) -> Diagnostic {
+    let indices: Vec<String> = indices.iter().map(u32::to_string).collect();
+    let (name, indices, at) = (&name.value, indices.join(","), name.span);
+    Diagnostic::error(CODE, at, format!("of `{name}` there is only `{name}[{indices}]`"))
+        .label(declared, "declares this one member")
+        .help(format!("for an array write its extent behind the component: `{name} : Component[{indices}]`"))
+}
+
 pub(crate) fn no_element(name: &Spanned<String>, indices: &[i64]) -> Diagnostic {
     let indices: Vec<String> = indices.iter().map(i64::to_string).collect();
     let written = if indices.is_empty() { String::new() } else { format!("[{}]", indices.join(",")) };

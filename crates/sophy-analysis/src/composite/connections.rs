@@ -305,10 +305,18 @@ pub(crate) fn member_copy<'a>(
             }
             Some((*position, copy as u32))
         }
-        Named::Elements(elements, _) => {
+        Named::Elements(elements, declared) => {
             let key: Vec<u32> = numbers.iter().map(|&n| u32::try_from(n).unwrap_or(0)).collect();
             match elements.get(&key) {
                 Some(&position) => Some((position, 0)),
+                None if elements.len() == 1 => {
+                    // Meant as an array, perhaps: then all its connections are wrong for one reason.
+                    if builder.suggested.insert(format!("{}[]", name.value)) {
+                        let only = elements.keys().next().map_or(&[][..], Vec::as_slice);
+                        builder.report(hs0410_unknown_port::one_element(name, only, *declared));
+                    }
+                    None
+                }
                 None => {
                     builder.report(hs0410_unknown_port::no_element(name, &numbers));
                     None
