@@ -55,7 +55,7 @@ pub fn bench() -> Vec<Measured> {
         transitions: Some(taken.len()),
         error_of: "time of the 68th transition, s",
         error,
-        ratio,
+        ratio: Some(ratio),
     };
     vec![
         row("floor", times.first, 1.0),

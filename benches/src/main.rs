@@ -14,9 +14,10 @@ mod measure;
 mod memory;
 mod oscillator;
 mod report;
+mod systems;
 
 fn main() -> std::io::Result<()> {
-    let engines = || [hopper::bench(), oscillator::bench()].concat();
+    let engines = || [hopper::bench(), oscillator::bench(), systems::bench()].concat();
     let mut words = std::env::args().skip(1);
     match words.next().as_deref() {
         Some("language") => {

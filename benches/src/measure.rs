@@ -20,8 +20,8 @@ pub struct Measured {
     pub error_of: &'static str,
     /// Its absolute value.
     pub error: f64,
-    /// Median of the ratios of its CPU time to that of the floor run just before; 1 for the floor.
-    pub ratio: f64,
+    /// Median of the ratios of its CPU time to that of the floor run just before; 1 for the floor, none without one.
+    pub ratio: Option<f64>,
 }
 
 /// Medians.
@@ -63,6 +63,17 @@ pub fn alternate<A, B>(
     let ratios = first_times.iter().zip(&second_times).map(|(first, second)| second.cpu_ms / first.cpu_ms);
     let times = Times { ratio: median(ratios), first: medians(&first_times), second: medians(&second_times) };
     (times, a, b)
+}
+
+/// Times `work` on what `begin` makes, and gives the median with the last result.
+pub fn repeat<S>(repetitions: usize, begin: impl Fn() -> S, work: impl Fn(&mut S)) -> (Time, S) {
+    let mut state = begin();
+    let mut times = Vec::new();
+    for _ in 0..repetitions {
+        state = begin();
+        times.push(timed(&mut || work(&mut state)).1);
+    }
+    (medians(&times), state)
 }
 
 fn timed<R>(run: &mut impl FnMut() -> R) -> (R, Time) {

@@ -48,7 +48,7 @@ pub fn bench() -> Vec<Measured> {
         transitions: None,
         error_of: "x1 at the end",
         error,
-        ratio,
+        ratio: Some(ratio),
     };
     vec![
         row("floor", times.first, 1.0),

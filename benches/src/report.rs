@@ -11,8 +11,9 @@ pub fn markdown(results: &[Measured]) -> String {
     );
     for r in results {
         let transitions = r.transitions.map_or_else(|| "–".to_owned(), |n| n.to_string());
+        let ratio = r.ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}"));
         text += &format!(
-            "| {} | {} | {:.3} | {:.0} | {:.3} | {} | {:.1} | {transitions} | {:.1e} | {} | {:.2} |\n",
+            "| {} | {} | {:.3} | {:.0} | {:.3} | {} | {:.1} | {transitions} | {:.1e} | {} | {ratio} |\n",
             r.bench,
             r.by,
             r.time.wall_ms,
@@ -22,7 +23,6 @@ pub fn markdown(results: &[Measured]) -> String {
             per_step(r),
             r.error,
             r.error_of,
-            r.ratio,
         );
     }
     text

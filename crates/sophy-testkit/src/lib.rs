@@ -4,6 +4,7 @@ mod build;
 pub mod cells;
 pub mod problems;
 mod reference;
+pub mod stiff;
 
 pub use build::{Build, Place};
 pub use reference::{Reference, repository};
