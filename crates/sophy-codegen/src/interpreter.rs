@@ -21,7 +21,8 @@ fn dispatch<T: Scalar>(program: &Program, operands: &[u32], memory: &mut [T], or
     match orders {
         1 => execute::<T, 1>(program, operands, memory),
         2 => execute::<T, 2>(program, operands, memory),
-        _ => execute::<T, 3>(program, operands, memory),
+        3 => execute::<T, 3>(program, operands, memory),
+        _ => execute::<T, 4>(program, operands, memory),
     }
 }
 

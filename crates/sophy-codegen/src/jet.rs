@@ -277,13 +277,19 @@ fn power_at_zero<T: Scalar, const N: usize>(a: Jet<T, N>, p: T, value: T) -> Jet
     let mut c = zeros();
     c[0] = value;
     let slope = p * a[0].pow(p - T::of(1.0));
+    let derivative = |factor: T, n: f64| {
+        T::choose(factor.equal(T::of(0.0)), || [factor], || [factor * a[0].pow(p - T::of(n))])[0]
+    };
     for k in 1..N {
         let mut bend = T::of(0.0);
-        if k == 2 {
+        if k > 1 {
             let factor = p * (p - T::of(1.0)) / T::of(2.0);
-            let curved = || [factor * a[0].pow(p - T::of(2.0))];
-            let [curvature] = T::choose(factor.equal(T::of(0.0)), || [factor], curved);
-            bend = times(curvature, a[1].square());
+            let products = if k == 2 { a[1].square() } else { T::of(2.0) * (a[1] * a[2]) };
+            bend = times(derivative(factor, 2.0), products);
+        }
+        if k > 2 {
+            let factor = p * (p - T::of(1.0)) * (p - T::of(2.0)) / T::of(6.0);
+            bend = bend + times(derivative(factor, 3.0), a[1].square() * a[1]);
         }
         c[k] = times(slope, a[k]) + bend;
     }
@@ -318,6 +324,10 @@ mod tests {
         assert_eq!(power_constant([0.0, 2.0, 3.0], 2.5), [0.0, 0.0, 0.0]);
         assert_eq!(power_constant([0.0, 2.0], 1.5), [0.0, 0.0]);
         assert_eq!(power_constant([0.0, 2.0, 3.0], 1.0), [0.0, 2.0, 3.0]);
+        assert_eq!(power_constant([0.0, 2.0, 3.0, 5.0], 1.0), [0.0, 2.0, 3.0, 5.0]);
+        assert_eq!(power_constant([0.0, 2.0, 3.0, 5.0], 2.0), [0.0, 0.0, 4.0, 12.0]);
+        assert_eq!(power_constant([0.0, 2.0, 3.0, 5.0], 3.0), [0.0, 0.0, 0.0, 8.0]);
+        assert_eq!(power_constant([0.0, 2.0, 3.0, 5.0], 3.5), [0.0; 4]);
     }
 
     #[test]

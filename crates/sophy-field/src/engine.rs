@@ -1,5 +1,5 @@
 use crate::{
-    AutomatonIndex, Equations, InputIndex, Journal, LocationIndex, SourceIndex, StateIndex, WatchIndex,
+    AutomatonIndex, Equations, InputIndex, Jet, Journal, LocationIndex, SourceIndex, StateIndex, WatchIndex,
 };
 use sophy_segment::Sign;
 use std::fmt::Debug;
@@ -47,7 +47,7 @@ pub trait Engine: Debug + Send {
     fn value(&self, source: SourceIndex, time: f64) -> f64;
 
     /// Value and derivatives of a source at `time` (s), as Taylor coefficients.
-    fn jet(&self, source: SourceIndex, time: f64) -> [f64; 3];
+    fn jet(&self, source: SourceIndex, time: f64) -> Jet;
 
     /// Quantised value q of a state at `time` (s); engines without quantisation give x.
     fn quantised(&self, state: StateIndex, time: f64) -> f64;

@@ -1,5 +1,5 @@
 use crate::{
-    AutomatonIndex, Call, Enclose, Kernels, LocationIndex, Operand, Program, Run, StateIndex, Table,
+    AutomatonIndex, Call, Enclose, Jet, Kernels, LocationIndex, Operand, Program, Run, StateIndex, Table,
     WatchIndex,
 };
 use sophy_segment::Interval;
@@ -282,7 +282,7 @@ impl Equations {
         locations: &[LocationIndex],
         memory: &mut [f64],
         orders: usize,
-    ) -> [f64; 3] {
+    ) -> Jet {
         for entry in self.entries(&formula.before) {
             self.execute(&self.calls[entry.at(locations)], memory, orders);
         }
@@ -297,7 +297,7 @@ impl Equations {
         locations: &[LocationIndex],
         memory: &mut [Interval],
     ) -> [Interval; 3] {
-        let orders = self.layout.width as usize;
+        let orders = (self.layout.width as usize).min(3);
         for entry in self.entries(&formula.before) {
             self.execute_enclosed(&self.calls[entry.at(locations)], memory, orders);
         }
@@ -317,8 +317,8 @@ impl Equations {
 
     /// The coefficients that stand at an operand.
     #[inline]
-    pub fn result(&self, operand: Operand, memory: &[f64], orders: usize) -> [f64; 3] {
-        let mut coefficients = [0.0; 3];
+    pub fn result(&self, operand: Operand, memory: &[f64], orders: usize) -> Jet {
+        let mut coefficients = Jet::default();
         match operand {
             Operand::Scalar(offset) => coefficients[0] = memory[offset as usize],
             Operand::Jet(offset) => {

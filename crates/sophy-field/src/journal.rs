@@ -1,4 +1,4 @@
-use crate::{AutomatonIndex, InputIndex, LocationIndex, StateIndex, WatchIndex};
+use crate::{AutomatonIndex, InputIndex, Jet, LocationIndex, StateIndex, WatchIndex};
 use sophy_segment::Sign;
 
 /// What an engine and the hybrid logic write down as a run goes on, in the order it happens. The recorder
@@ -13,14 +13,14 @@ pub struct Journal {
 /// One line of a [`Journal`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Record {
-    /// From `time` (s) on a state follows `c₀ + c₁ s + c₂ s²`.
+    /// From `time` (s) on a state follows `c₀ + c₁ s + c₂ s² + c₃ s³`.
     Segment {
         /// Start, s.
         time: f64,
         /// The state.
         state: StateIndex,
-        /// In unit, unit/s, unit/s².
-        coefficients: [f64; 3],
+        /// In unit, unit/s, unit/s², unit/s³.
+        coefficients: Jet,
     },
     /// From `time` (s) on an input follows `value + slope·s`.
     Input {

@@ -26,5 +26,5 @@ pub use index::{
 };
 pub use journal::{Journal, Record};
 pub use logic::{EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
-pub use program::{Call, Code, Enclose, Instruction, Kernel, Kernels, Operand, Program, Reads, Run};
+pub use program::{Call, Code, Enclose, Instruction, Jet, Kernel, Kernels, Operand, Program, Reads, Run};
 pub use table::Table;

@@ -161,6 +161,10 @@ pub struct Call {
     pub operands: Range<u32>,
 }
 
+/// Taylor coefficients `x⁽ᵏ⁾/k!` of a quantity, as many as any engine of this family reads: order 3, and one more to bound
+/// its error. Engines of lower order leave the last ones 0.
+pub type Jet = [f64; 4];
+
 /// Runs a program on memory, computing `orders` coefficients (1 … width) of every jet.
 ///
 /// Both back ends fill the same pointer, so that nothing above is generic over them.

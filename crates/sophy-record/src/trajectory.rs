@@ -22,7 +22,7 @@ pub struct Trajectory {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     start: f64,
-    coefficients: [f64; 3],
+    coefficients: [f64; 4],
 }
 
 impl Trajectory {
@@ -31,8 +31,8 @@ impl Trajectory {
         Trajectory { states: vec![Vec::new(); states], locations: vec![Vec::new(); automata] }
     }
 
-    /// State `state` follows `c₀ + c₁ s + c₂ s²`, s = t − start (s), from `start` on.
-    pub fn push_segment(&mut self, state: usize, start: f64, coefficients: [f64; 3]) {
+    /// State `state` follows `c₀ + c₁ s + c₂ s² + c₃ s³`, s = t − start (s), from `start` on.
+    pub fn push_segment(&mut self, state: usize, start: f64, coefficients: [f64; 4]) {
         self.states[state].push(Piece { start, coefficients });
     }
 
@@ -50,8 +50,8 @@ impl Trajectory {
         };
         let Some(piece) = pieces.get(after.max(1) - 1) else { return f64::NAN };
         let s = (time - piece.start).max(0.0);
-        let [c0, c1, c2] = piece.coefficients;
-        c0 + s * (c1 + s * c2)
+        let [c0, c1, c2, c3] = piece.coefficients;
+        c0 + s * (c1 + s * (c2 + s * c3))
     }
 
     /// Location of an automaton at `time`.

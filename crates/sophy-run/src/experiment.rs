@@ -71,15 +71,20 @@ pub enum Method {
     Qss1,
     /// Second-order quantised states.
     Qss2,
+    /// Third-order quantised states.
+    Qss3,
     /// First-order quantised states, linearly implicit: for stiff models.
     Liqss1,
     /// Second-order quantised states, linearly implicit: for stiff models.
     Liqss2,
+    /// Third-order quantised states, linearly implicit: for stiff models.
+    Liqss3,
 }
 
 impl Method {
     /// All names that [`Method::named`] knows.
-    pub const NAMES: &'static [&'static str] = &["auto", "qss1", "qss2", "liqss1", "liqss2"];
+    pub const NAMES: &'static [&'static str] =
+        &["auto", "qss1", "qss2", "qss3", "liqss1", "liqss2", "liqss3"];
 
     /// The method of a name.
     pub fn named(name: &str) -> Option<Method> {
@@ -87,8 +92,10 @@ impl Method {
             "auto" => Some(Method::Auto),
             "qss1" => Some(Method::Qss1),
             "qss2" => Some(Method::Qss2),
+            "qss3" => Some(Method::Qss3),
             "liqss1" => Some(Method::Liqss1),
             "liqss2" => Some(Method::Liqss2),
+            "liqss3" => Some(Method::Liqss3),
             _ => None,
         }
     }
@@ -98,12 +105,13 @@ impl Method {
         match self {
             Method::Qss1 | Method::Liqss1 => 1,
             Method::Auto | Method::Qss2 | Method::Liqss2 => 2,
+            Method::Qss3 | Method::Liqss3 => 3,
         }
     }
 
     /// Whether its quantisation is linearly implicit.
     pub(crate) fn is_implicit(self) -> bool {
-        matches!(self, Method::Liqss1 | Method::Liqss2)
+        matches!(self, Method::Liqss1 | Method::Liqss2 | Method::Liqss3)
     }
 
     /// Its name.
@@ -112,8 +120,10 @@ impl Method {
             Method::Auto => "auto",
             Method::Qss1 => "qss1",
             Method::Qss2 => "qss2",
+            Method::Qss3 => "qss3",
             Method::Liqss1 => "liqss1",
             Method::Liqss2 => "liqss2",
+            Method::Liqss3 => "liqss3",
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::experiment::{Experiment, ExperimentError, matches};
 use crate::grid::Grid;
 use crate::run::Run;
 use rustc_hash::FxHashSet;
-use sophy_field::{LocationIndex, Record, SourceIndex, WatchIndex};
+use sophy_field::{Jet, LocationIndex, Record, SourceIndex, WatchIndex};
 use sophy_ir::{Quantity, System};
 use sophy_record::{Column, ColumnKind, Row, Schema, Sink, SinkError, Trajectory};
 use sophy_segment::Sign;
@@ -20,7 +20,7 @@ pub struct Recorder {
     reals: Vec<Real>,
     labels: Vec<Label>,
     /// Present segment of every source: start and coefficients.
-    segments: Vec<(f64, [f64; 3])>,
+    segments: Vec<(f64, Jet)>,
     locations: Vec<LocationIndex>,
     /// Number of states; inputs follow them.
     states: usize,
@@ -65,11 +65,11 @@ impl Recorder {
     pub fn new(run: &Run, experiment: &Experiment) -> Result<Self, Vec<ExperimentError>> {
         let system = run.system();
         let layout = run.compiled().equations.layout;
-        let mut segments = vec![(experiment.start, [0.0; 3]); layout.sources()];
+        let mut segments = vec![(experiment.start, Jet::default()); layout.sources()];
         for (input, line) in run.start_inputs().iter().enumerate() {
-            segments[layout.states as usize + input] = (experiment.start, [line[0], line[1], 0.0]);
+            segments[layout.states as usize + input] = (experiment.start, [line[0], line[1], 0.0, 0.0]);
         }
-        segments[layout.time().position()] = (0.0, [0.0, 1.0, 0.0]);
+        segments[layout.time().position()] = (0.0, [0.0, 1.0, 0.0, 0.0]);
         let mut recorder = Recorder {
             schema: Schema { columns: Vec::new(), with_step: experiment.microsteps },
             reals: Vec::new(),
@@ -196,7 +196,7 @@ impl Recorder {
             }
             Record::Input { time, input, value, slope } => {
                 let at = self.states + input.position();
-                self.segments[at] = (time, [value, slope, 0.0]);
+                self.segments[at] = (time, [value, slope, 0.0, 0.0]);
             }
             Record::Location { time, automaton, location } => {
                 self.locations[automaton.position()] = location;
@@ -289,9 +289,9 @@ impl Recorder {
     }
 }
 
-fn at((start, [c0, c1, c2]): (f64, [f64; 3]), time: f64) -> f64 {
+fn at((start, [c0, c1, c2, c3]): (f64, Jet), time: f64) -> f64 {
     let s = time - start;
-    c0 + s * (c1 + s * c2)
+    c0 + s * (c1 + s * (c2 + s * c3))
 }
 
 /// A column that could be recorded.

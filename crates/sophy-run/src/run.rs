@@ -12,7 +12,7 @@ use sophy_field::{
 };
 use sophy_hybrid::{Accumulation, Control, Counts, HybridError, Taken};
 use sophy_ir::System;
-use sophy_solvers::{Qss, Quantum, Settings};
+use sophy_solvers::{Qss1, Qss2, Qss3, Quantum, Settings};
 use std::sync::Arc;
 
 /// One run of a system under an experiment.
@@ -94,8 +94,9 @@ impl Run {
         let mut settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
         settings.implicit = experiment.method.is_implicit();
         let engine: Box<dyn Engine> = match configured.order {
-            1 => Box::new(Qss::<1>::new(equations, settings)),
-            _ => Box::new(Qss::<2>::new(equations, settings)),
+            1 => Box::new(Qss1::new(equations, settings)),
+            2 => Box::new(Qss2::new(equations, settings)),
+            _ => Box::new(Qss3::new(equations, settings)),
         };
         let control = Control::new(equations, &compiled.logic);
         let mut run = Run {

@@ -5,8 +5,10 @@
 //! crosses at the start, the joint of two segments.
 
 mod bracket;
+mod cubic;
 mod enclosed;
 mod parabola;
 
+pub use cubic::{cubic_crossing, cubic_leaves};
 pub use enclosed::{Search, Start, first_crossing};
 pub use parabola::parabola_crossing;

@@ -21,7 +21,7 @@ mod interval;
 mod segment;
 mod sign;
 
-pub use crossing::{Search, Start, first_crossing, parabola_crossing};
+pub use crossing::{Search, Start, cubic_crossing, cubic_leaves, first_crossing, parabola_crossing};
 pub use instant::Instant;
 pub use interval::Interval;
 pub use segment::SegmentRef;

@@ -115,7 +115,13 @@ proptest! {
         let (sign, expected) = first_change(a, &roots, from, to);
         let c = expanded(a, &roots);
         let tolerance = expected.map_or(0.0, |r| blur(&c, a, &roots, r));
-        assert_near(search(horner(&c), from, to, on_surface(sign)), expected, tolerance)?;
+        match search(horner(&c), from, to, on_surface(sign)) {
+            // multiplied out a root of high multiplicity is a stretch of rounding
+            Search::Blurred(since, until) if roots.iter().filter(|&&r| r == from).count() > 4 => {
+                prop_assert!(since == from && until - from <= blur(&c, a, &roots, from), "{since} {until}");
+            }
+            found => assert_near(found, expected, tolerance)?,
+        }
         assert_near(search(factored(a, &roots), from, to, on_surface(sign)), expected, 4.0 * f64::EPSILON)?;
     }
 

@@ -1,10 +1,10 @@
 //! Engines: derivatives → segments, crossings located on them.
 //!
-//! - [`Qss`]: the quantised-state methods QSS1 and QSS2 (thesis ch. 3): each state is integrated by itself,
-//!   events are predicted and never stepped back over.
+//! - [`Qss`]: the quantised-state methods QSS1 to QSS3 (thesis ch. 3) and, linearly implicit, LIQSS1 to LIQSS3: each
+//!   state is integrated by itself, events are predicted and never stepped back over.
 //!
 //! No language, no file, no terminal here; what a crossing means is the business of the hybrid logic.
 
 mod qss;
 
-pub use qss::{Qss, Quantum, Settings};
+pub use qss::{Qss, Qss1, Qss2, Qss3, Quantum, Settings};

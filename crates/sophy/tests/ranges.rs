@@ -165,7 +165,7 @@ fn a_motion_may_rest_at_its_bound_whatever_the_quanta() {
     let world = MemoryWorld::default().with("tank.hsml", model);
     let loaded = load(&world, Path::new("tank.hsml"));
     let model = loaded.model.unwrap();
-    for method in [Method::Qss1, Method::Qss2, Method::Liqss1, Method::Liqss2] {
+    for method in [Method::Qss1, Method::Qss2, Method::Qss3, Method::Liqss1, Method::Liqss2, Method::Liqss3] {
         for quantum in [1e-1, 1e-2, 1e-3] {
             let mut experiment = Experiment { stop: 300.0, method, ..Experiment::default() };
             with(1.0, quantum)(&mut experiment);

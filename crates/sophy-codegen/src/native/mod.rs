@@ -141,7 +141,8 @@ impl Asked {
             Asked { calls: vec![vec![None; programs]; width], results: vec![FxHashSet::default(); programs] };
         for block in &equations.blocks {
             let orders = if block.bends { width } else { width - 1 };
-            asked.call(&block.call, &[1, orders]);
+            // Two for a motion of one state alone (Jacobian entries), and at starts.
+            asked.call(&block.call, &[1, 2, orders]);
             for row in &equations.rows[block.rows.start as usize..block.rows.end as usize] {
                 asked.result(&block.call, row.result, width);
             }

@@ -3,10 +3,10 @@ use crate::interpreter::run;
 use proptest::prelude::*;
 use sophy_field::{Code, Instruction, Kernels, Program};
 
-const WIDTH: usize = 3;
+const WIDTH: usize = 4;
 
 /// Numbers in memory that programs only read, a column behind them, then temporaries.
-const READ: u32 = 30;
+const READ: u32 = 10 * WIDTH as u32;
 const COLUMN: u32 = READ;
 const TEMPORARIES: u32 = COLUMN + 5;
 const LENGTH: usize = TEMPORARIES as usize + 20 * WIDTH;

@@ -76,7 +76,8 @@ pub(super) fn trace(instruction: &Instruction, orders: usize) -> Trace {
     match orders {
         1 => trace_jets::<1>(instruction),
         2 => trace_jets::<2>(instruction),
-        _ => trace_jets::<3>(instruction),
+        3 => trace_jets::<3>(instruction),
+        _ => trace_jets::<4>(instruction),
     }
 }
 

@@ -9,7 +9,15 @@ use sophy_testkit::{Build, Reference, problems};
 fn the_oscillator_stays_within_the_bound_and_converges_at_first_order() {
     let reference = Reference::read("oscillator/reference.csv");
     let (times, x1) = (reference.numbers("t"), reference.numbers("x1"));
-    for (method, steps_order) in [(Method::Qss2, -0.5), (Method::Qss1, -1.0)] {
+    let third = -1.0 / 3.0;
+    for (method, steps_order) in [
+        (Method::Qss3, third),
+        (Method::Liqss3, third),
+        (Method::Qss2, -0.5),
+        (Method::Liqss2, -0.5),
+        (Method::Qss1, -1.0),
+        (Method::Liqss1, -1.0),
+    ] {
         let (mut errors, mut steps) = (Vec::new(), Vec::new());
         for quantum in [1e-2, 3e-3, 1e-3, 3e-4, 1e-4] {
             let result = run(&problems::oscillator(), &by(method, to(60.0, quantum)));
@@ -21,7 +29,11 @@ fn the_oscillator_stays_within_the_bound_and_converges_at_first_order() {
             steps.push((quantum, result.report.statistics.engine.steps as f64));
         }
         let slope = order(&errors);
-        assert!((0.75..1.25).contains(&slope), "{method:?}: order {slope}, {errors:?}");
+        // LIQSS1 does better here.
+        assert!(
+            (0.75..1.25).contains(&slope) || method == Method::Liqss1 && slope > 1.0,
+            "{method:?}: order {slope}, {errors:?}"
+        );
         let slope = order(&steps);
         assert!((slope - steps_order).abs() < 0.12, "{method:?}: steps {slope}, {steps:?}");
     }
@@ -60,7 +72,9 @@ fn rates_of_time_alone_are_followed() {
         let fifth = b.graph().integer_power(t, 5);
         b.rate(here, power, fifth);
         let mut errors = Vec::new();
-        for quantum in [1e-3, 3e-4, 1e-4, 3e-5, 1e-5] {
+        // A quantum that the longest trusted time does not keep by itself.
+        let least = if matches!(method, Method::Qss3 | Method::Liqss3) { 1e-9 } else { 1e-5 };
+        for quantum in [100.0, 30.0, 10.0, 3.0, 1.0].map(|times| times * least) {
             let result = run(&b.model(), &by(method, to(1.5, quantum)));
             let mut worst = 0.0f64;
             for k in 0..=150 {

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use sophy_codegen::{Compiled, Parameters, Sharing, compile_sharing};
-use sophy_field::{Formula, LocationIndex, SourceIndex, StateIndex};
+use sophy_field::{Formula, Jet, LocationIndex, SourceIndex, StateIndex};
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Model, Node, NodeId, System, Unary, Value, evaluate};
 use sophy_segment::Interval;
 use sophy_testkit::Build;
@@ -160,7 +160,7 @@ fn lowered(model: &Model, point: Point) -> Case {
     let system = sophy_passes::lower(model).expect("lowers");
     // Programs of their own and shared ones must not differ in a bit.
     let sharing = if system.graph.len().is_multiple_of(2) { Sharing::Always } else { Sharing::Usual };
-    let compiled = compile_sharing(&system, &Parameters::new(), 2, sharing).expect("compiles");
+    let compiled = compile_sharing(&system, &Parameters::new(), 3, sharing).expect("compiles");
     Case { system, compiled, point }
 }
 
@@ -222,13 +222,13 @@ impl Case {
     }
 
     /// Memory with jets of all sources on both sides, switches as at the point.
-    fn memory(&self, jets: &[[f64; 3]; 4]) -> Vec<f64> {
+    fn memory(&self, jets: &[Jet; 4]) -> Vec<f64> {
         let e = &self.compiled.equations;
         let mut memory = e.image.clone();
         for (source, jet) in jets.iter().enumerate() {
             let source = SourceIndex(source as u32);
             for at in [e.layout.series_of(source), e.layout.quantised_of(source)] {
-                memory[at..at + 3].copy_from_slice(jet);
+                memory[at..at + WIDTH].copy_from_slice(jet);
             }
         }
         let sources = &self.point.sources;
@@ -256,7 +256,7 @@ impl Case {
     }
 
     /// Coefficients of a rate by its block, from quantised jets.
-    fn rate(&self, state: usize, memory: &mut [f64], orders: usize) -> [f64; 3] {
+    fn rate(&self, state: usize, memory: &mut [f64], orders: usize) -> Jet {
         let e = &self.compiled.equations;
         for &entry in e.entries(&e.own[state]) {
             let block = e.block(entry, &HERE);
@@ -272,6 +272,9 @@ impl Case {
 }
 
 const HERE: [LocationIndex; 1] = [LocationIndex(0)];
+
+/// Coefficients of a jet, for order 3.
+const WIDTH: usize = 4;
 
 fn same_bits(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
@@ -305,10 +308,10 @@ fn motion() -> impl Strategy<Value = [[f64; 2]; 4]> {
     ([c(), c()], [c(), c()], c()).prop_map(|(a, b, u)| [a, b, [u, 0.0], [1.0, 0.0]])
 }
 
-fn jets(point: &Point, motion: &[[f64; 2]; 4], s: f64) -> [[f64; 3]; 4] {
+fn jets(point: &Point, motion: &[[f64; 2]; 4], s: f64) -> [Jet; 4] {
     std::array::from_fn(|k| {
         let [c1, c2] = motion[k];
-        [point.sources[k] + s * (c1 + s * c2), c1 + 2.0 * c2 * s, c2]
+        [point.sources[k] + s * (c1 + s * c2), c1 + 2.0 * c2 * s, c2, 0.0]
     })
 }
 
@@ -324,10 +327,10 @@ proptest! {
     ) {
         let case = case(&steps, point, false);
         // Not through `jets`, which turns −0 into 0.
-        let jets = std::array::from_fn(|k| [point.sources[k], motion[k][0], motion[k][1]]);
+        let jets = std::array::from_fn(|k| [point.sources[k], motion[k][0], motion[k][1], 0.0]);
         for (formula, node) in case.formulas() {
             let expected = case.value(node, &point.sources);
-            for orders in 1..=3 {
+            for orders in 1..=WIDTH {
                 let mut memory = case.memory(&jets);
                 let [value, ..] = case.compiled.equations.formula(formula, &HERE, &mut memory, orders);
                 prop_assert!(same_bits(value, expected), "{value:e} for {expected:e} at {:?}, {orders} orders: {}", point.sources, case.system.text(node));
@@ -336,7 +339,7 @@ proptest! {
         for state in 0..2 {
             let node = case.system.states[state].rate.by_location[0];
             let expected = case.value(node, &point.sources);
-            for orders in 1..=3 {
+            for orders in 1..=WIDTH {
                 let [value, ..] = case.rate(state, &mut case.memory(&jets), orders);
                 prop_assert!(same_bits(value, expected), "{value:e} for {expected:e} at {:?}, {orders} orders: {}", point.sources, case.system.text(node));
             }
@@ -352,7 +355,7 @@ proptest! {
         prop_assert!(written == lifted, "{written} {lifted}");
     }
 
-    /// First and second coefficients: symbolic derivatives along the motion, and difference quotients.
+    /// First, second and third coefficients: symbolic derivatives along the motion, and difference quotients.
     #[test]
     fn coefficients_are_the_derivatives_along_the_motion(
         steps in steps(16),
@@ -373,7 +376,7 @@ proptest! {
                 Leaf::Parameter(i) => return graph.number(point.parameters[i.position()]),
                 other => panic!("{other:?}"),
             };
-            let [c0, c1, c2] = jets[k].map(|c| graph.number(c));
+            let [c0, c1, c2, _] = jets[k].map(|c| graph.number(c));
             let inner = graph.multiply(c2, s);
             let inner = graph.add(c1, inner);
             let term = graph.multiply(inner, s);
@@ -382,8 +385,9 @@ proptest! {
         let at = |graph: &Graph, node: NodeId, s: f64| evaluate(graph, node, &mut |_| Value::Real(s)).real();
         let first = graph.derivative(moved, Leaf::Time);
         let second = first.and_then(|d| graph.derivative(d, Leaf::Time));
-        let [d1, d2] = [first, second].map(|d| d.map_or(0.0, |d| at(&graph, d, 0.0)));
-        prop_assume!(d1.abs() < 1e4 && d2.abs() < 1e6);
+        let third = second.and_then(|d| graph.derivative(d, Leaf::Time));
+        let [d1, d2, d3] = [first, second, third].map(|d| d.map_or(0.0, |d| at(&graph, d, 0.0)));
+        prop_assume!(d1.abs() < 1e4 && d2.abs() < 1e6 && d3.abs() < 1e8);
         // The same first derivative along a direction, in the system's own graph.
         let mut own = case.system.graph.clone();
         let along = own.directional(root, &mut |graph, leaf| match leaf {
@@ -397,11 +401,12 @@ proptest! {
         prop_assert!((along - d1).abs() < 1e-9 * scale, "{along} {d1}");
 
         let formula = case.compiled.equations.selected(case.compiled.equations.outputs[0], &HERE);
-        let plain = case.compiled.equations.formula(formula, &HERE, &mut case.memory(&jets), 3);
-        let lifted = case.rate(0, &mut case.memory(&jets), 3);
+        let plain = case.compiled.equations.formula(formula, &HERE, &mut case.memory(&jets), WIDTH);
+        let lifted = case.rate(0, &mut case.memory(&jets), WIDTH);
         for c in [plain, lifted] {
             prop_assert!((c[1] - d1).abs() < 1e-9 * scale, "{c:?} for {d1} {d2}");
             prop_assert!((2.0 * c[2] - d2).abs() < 1e-8 * scale, "{c:?} for {d1} {d2}");
+            prop_assert!((6.0 * c[3] - d3).abs() < 1e-7 * (scale + d3.abs()), "{c:?} for {d1} {d2} {d3}");
         }
 
         // Difference quotients with two steps; their difference estimates their error.

@@ -7,7 +7,7 @@ use sophy_hybrid::{Control, Taken};
 use sophy_ir::{System, Value, evaluate};
 use sophy_passes::lift_kinks;
 use sophy_run::{Pause, Run};
-use sophy_solvers::{Qss, Quantum, Settings};
+use sophy_solvers::{Qss2, Quantum, Settings};
 use sophy_testkit::Build;
 use sophy_testkit::cells::{distinct, ring};
 use std::sync::Arc;
@@ -28,7 +28,7 @@ type Trace = (Vec<u64>, Vec<Taken>, Statistics);
 fn play(system: &System, sharing: Sharing, until: f64) -> Trace {
     let Compiled { equations, logic, .. } = compiled(system, sharing);
     let settings = Settings::for_span(vec![Quantum::absolute(1e-2); system.states.len()], until);
-    let mut engine: Box<dyn Engine> = Box::new(Qss::<2>::new(&equations, settings));
+    let mut engine: Box<dyn Engine> = Box::new(Qss2::new(&equations, settings));
     let mut control = Control::new(&equations, &logic);
     let (mut journal, mut taken) = (Journal::default(), Vec::new());
     let initial = |s: &sophy_ir::State| {

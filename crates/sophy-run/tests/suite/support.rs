@@ -4,7 +4,8 @@ use sophy_run::{Experiment, Method, Quantum, QuantumRule, Recorder, Report, Run,
 use std::sync::Arc;
 
 /// All quantised engines.
-pub(crate) const METHODS: [Method; 4] = [Method::Qss1, Method::Qss2, Method::Liqss1, Method::Liqss2];
+pub(crate) const METHODS: [Method; 6] =
+    [Method::Qss1, Method::Qss2, Method::Qss3, Method::Liqss1, Method::Liqss2, Method::Liqss3];
 
 /// Whether segments are lines.
 pub(crate) fn is_first_order(method: Method) -> bool {

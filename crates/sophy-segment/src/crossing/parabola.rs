@@ -43,7 +43,7 @@ pub fn parabola_crossing(c: [f64; 3], sign: Sign) -> Option<f64> {
 
 /// The s > 0 at which a parabola that is positive just right of 0 turns negative.
 #[inline]
-fn first_fall([p0, p1, p2]: [f64; 3]) -> Option<f64> {
+pub(super) fn first_fall([p0, p1, p2]: [f64; 3]) -> Option<f64> {
     if p2 >= 0.0 && (p1 >= 0.0 || p0 == 0.0) {
         return None;
     }
@@ -113,12 +113,12 @@ fn fall_at_any_scale([p0, p1, p2]: [f64; 3]) -> Option<f64> {
 }
 
 /// x 2^n for n beyond what one multiplication reaches.
-fn scaled(x: f64, n: i32) -> f64 {
+pub(super) fn scaled(x: f64, n: i32) -> f64 {
     libm::scalbn(libm::scalbn(x, n / 2), n - n / 2)
 }
 
 #[inline]
-fn finite(s: f64) -> Option<f64> {
+pub(super) fn finite(s: f64) -> Option<f64> {
     s.is_finite().then_some(s)
 }
 

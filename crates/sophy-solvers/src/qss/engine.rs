@@ -2,22 +2,30 @@ use super::record::Record;
 use super::settings::Settings;
 use super::watches::WatchRecord;
 use sophy_field::{
-    Agenda, AutomatonIndex, Block, Changes, Engine, Entry, Equations, Fault, Journal, LocationIndex,
+    Agenda, AutomatonIndex, Block, Changes, Engine, Entry, Equations, Fault, Jet, Journal, LocationIndex,
     RowResult, SourceIndex, Start, StateIndex, Statistics, Stop, WatchIndex,
 };
-use sophy_segment::{Interval, Sign};
+use sophy_segment::{Interval, Sign, cubic_leaves};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The quantised-state engine of order `ORDER`: 1 is QSS1, 2 is QSS2; with implicit quantisation LIQSS1 and LIQSS2.
+/// QSS1 and LIQSS1.
+pub type Qss1 = Qss<1, 2, 3>;
+/// QSS2 and LIQSS2.
+pub type Qss2 = Qss<2, 2, 3>;
+/// QSS3 and LIQSS3.
+pub type Qss3 = Qss<3, 3, 4>;
+
+/// The quantised-state engine of order `ORDER`, with room for `Q` coefficients of quantised and `X` of integrated
+/// trajectories; which quantisation is a setting.
 ///
 /// Equations must have been compiled for the same order. Slots of the agenda: the states (change of q, or
 /// evaluation of a rate that bends), then the watches.
 #[derive(Clone, Debug)]
-pub struct Qss<const ORDER: usize> {
+pub struct Qss<const ORDER: usize, const Q: usize, const X: usize> {
     pub(super) settings: Settings,
     /// States, inputs, time.
-    pub(super) records: Vec<Record>,
+    pub(super) records: Vec<Record<Q, X>>,
     /// How the rates bend.
     bends: Vec<Bend>,
     /// The state whose rate is being evaluated only because it bends; `usize::MAX` if none.
@@ -51,8 +59,8 @@ pub struct Qss<const ORDER: usize> {
 /// What a rate does that its segment leaves out.
 #[derive(Clone, Copy, Debug)]
 struct Bend {
-    /// A quantum over the coefficient of what is left out: QSS2 leaves out ∫½f̈s² = ½f̈·s³/3, QSS1
-    /// ∫ḟs = ḟ·s²/2. Infinite where nothing is left out.
+    /// A quantum over the coefficient of what is left out: QSS1 leaves out ∫ḟs = ḟ·s²/2, QSS2 ∫½f̈s² = ½f̈·s³/3, QSS3
+    /// the like of the fourth order. Infinite where nothing is left out.
     room: f64,
     /// Whether the rate bends at all; then it is trusted for a bounded time even if its room is infinite.
     bends: bool,
@@ -73,7 +81,7 @@ pub(super) const MOST_REPEATS: u32 = 100;
 /// So many enclosures count as a step of the budget.
 const ENCLOSURES_PER_STEP: u64 = 4;
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
     /// An engine that has not been started.
     pub fn new(equations: &Equations, settings: Settings) -> Self {
         let layout = equations.layout;
@@ -108,8 +116,10 @@ impl<const ORDER: usize> Qss<ORDER> {
         self.count_repeats(i, self.records[i].tq, t)?;
         // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
         let record = &self.records[i];
-        let x = record.x_at(t);
-        let mut q = [x, if ORDER > 1 { record.slope_at(t) } else { 0.0 }];
+        let jet = record.x_from(t);
+        let x = jet[0];
+        let mut q = [0.0; Q];
+        q[..ORDER].copy_from_slice(&jet[..ORDER]);
         let quantum = self.settings.quanta[i].at(x);
         if self.settings.implicit {
             q = self.quantise_ahead(e, i, t, quantum).unwrap_or(q);
@@ -180,8 +190,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &source in e.sources(&block.sources) {
             let record = &self.records[source.position()];
             let at = e.layout.quantised_of(source);
-            self.memory[at] = record.q_at(t);
-            self.memory[at + 1] = record.q[1];
+            self.memory[at..at + Q].copy_from_slice(&record.q_from(t));
         }
         e.execute(&block.call, &mut self.memory, orders);
     }
@@ -191,13 +200,13 @@ impl<const ORDER: usize> Qss<ORDER> {
     fn still_for(&self, e: &Equations, block: &Block) -> f64 {
         let still = |source: &SourceIndex| {
             let Record { q, quantum, .. } = self.records[source.position()];
-            // Inputs and time have no quantum.
-            if q[1] == 0.0 {
-                f64::INFINITY
-            } else if quantum.is_finite() {
-                quantum / q[1].abs()
-            } else {
-                0.0
+            let rest = q[1..].iter().all(|&c| c == 0.0);
+            match (rest, quantum.is_finite()) {
+                (true, _) => f64::INFINITY,
+                // Inputs and time have no quantum.
+                (false, false) => 0.0,
+                (false, true) if Q == 2 => quantum / q[1].abs(),
+                (false, true) => cubic_leaves([0.0, q[1], q[Q - 1], 0.0], quantum),
             }
         };
         e.sources(&block.sources).iter().map(still).fold(f64::INFINITY, f64::min)
@@ -210,17 +219,26 @@ impl<const ORDER: usize> Qss<ORDER> {
         e: &Equations,
         row: RowResult,
         t: f64,
-        rate: [f64; 3],
+        rate: Jet,
         journal: &mut Journal,
     ) -> Result<(), Fault> {
-        let [f, f1, f2] = rate;
+        let [f, f1, f2, f3] = rate;
         let i = row.state.position();
         let record = &mut self.records[i];
         let x = record.x_at(t);
-        if !(f.is_finite() && f1.is_finite() && x.is_finite()) {
-            return Err(not_finite(row.state, t, x, if f.is_finite() { f1 } else { f }));
+        // What does not count for this order may be anything.
+        let counts = [f, if ORDER > 1 { f1 } else { 0.0 }, if ORDER > 2 { f2 } else { 0.0 }];
+        if !(x.is_finite() && counts.iter().all(|f| f.is_finite())) {
+            return Err(not_finite(row.state, t, x, &counts));
         }
-        record.x = [x, f, if ORDER > 1 { 0.5 * f1 } else { 0.0 }];
+        record.x[0] = x;
+        record.x[1] = f;
+        if ORDER > 1 {
+            record.x[2] = 0.5 * f1;
+        }
+        if ORDER > 2 {
+            record.x[3] = f2 / 3.0;
+        }
         record.tx = t;
         self.statistics.rates += 1;
         if row.bends {
@@ -230,14 +248,19 @@ impl<const ORDER: usize> Qss<ORDER> {
             if self.refreshed != i {
                 bend.coasting = t;
             }
-            let left_out = if ORDER > 1 { f2.abs() / 3.0 } else { f1.abs() / 2.0 };
-            bend.room = self.records[i].quantum / left_out;
+            let left_out = match ORDER {
+                1 => f1 / 2.0,
+                2 => f2 / 3.0,
+                _ => f3 / 4.0,
+            };
+            bend.room = self.records[i].quantum / left_out.abs();
             bend.trust = self.settings.trust.max(self.still);
         } else {
             self.bends[i] = STRAIGHT;
         }
         if journal.wanted {
-            let coefficients = self.records[i].x;
+            let mut coefficients = Jet::default();
+            coefficients[..X].copy_from_slice(&self.records[i].x);
             journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients });
         }
         self.schedule(i, t);
@@ -272,14 +295,19 @@ impl<const ORDER: usize> Qss<ORDER> {
     fn trusted_for(&self, bend: Bend, t: f64, enough: f64) -> f64 {
         let Bend { room, coasting, trust, .. } = bend;
         let coasted = t - coasting;
-        let (alone, shared) = if ORDER > 1 {
-            // Roots cost more than the question whether they matter.
-            if room >= enough * enough * enough && room >= enough * enough * coasted {
-                return trust;
-            }
-            (libm::cbrt(room), (room / coasted).sqrt())
-        } else {
-            (room.sqrt(), room / coasted)
+        // Roots cost more than the question whether they matter.
+        let power = match ORDER {
+            1 => enough,
+            2 => enough * enough,
+            _ => enough * enough * enough,
+        };
+        if room >= power * enough && room >= power * coasted {
+            return trust;
+        }
+        let (alone, shared) = match ORDER {
+            1 => (room.sqrt(), room / coasted),
+            2 => (libm::cbrt(room), (room / coasted).sqrt()),
+            _ => (room.sqrt().sqrt(), libm::cbrt(room / coasted)),
         };
         alone.min(shared).min(trust)
     }
@@ -331,8 +359,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         entries.sort_unstable();
         entries.dedup();
-        if ORDER > 1 {
-            self.start_slopes(e, t, &entries, &fresh);
+        for known in 1..ORDER {
+            self.start_derivatives(e, t, known, &entries, &fresh);
         }
         for &entry in &entries {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
@@ -349,19 +377,27 @@ impl<const ORDER: usize> Qss<ORDER> {
         Ok(())
     }
 
-    /// q̇ of fresh states becomes their rate.
-    fn start_slopes(&mut self, e: &Equations, t: f64, entries: &[Entry], fresh: &[StateIndex]) {
+    /// The next derivative of q of fresh states becomes that of x, where the coefficients before it are `known`.
+    fn start_derivatives(
+        &mut self,
+        e: &Equations,
+        t: f64,
+        known: usize,
+        entries: &[Entry],
+        fresh: &[StateIndex],
+    ) {
         for &entry in entries {
             let block = e.block(entry, &self.locations);
-            self.run_block(e, block, t, 1);
+            self.run_block(e, block, t, known);
             for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
                 if fresh.binary_search(&row.state).is_ok() {
-                    self.slopes.push((row.state.position(), e.result(row.result, &self.memory, 1)[0]));
+                    self.slopes
+                        .push((row.state.position(), e.result(row.result, &self.memory, known)[known - 1]));
                 }
             }
         }
         for (i, slope) in self.slopes.drain(..) {
-            self.records[i].q[1] = slope;
+            self.records[i].q[known] = slope / known as f64;
         }
     }
 
@@ -369,7 +405,8 @@ impl<const ORDER: usize> Qss<ORDER> {
     fn synchronise(&mut self, i: usize, t: f64) {
         let record = &mut self.records[i];
         let x = record.x_at(t);
-        record.q = [x, 0.0];
+        record.q = [0.0; Q];
+        record.q[0] = x;
         record.tq = t;
         record.quantum = self.settings.quanta[i].at(x);
         self.repeats[i] = 0;
@@ -380,7 +417,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             return Err(Fault::StateNotFinite { state, time: t, value });
         }
         let record = &mut self.records[state.position()];
-        record.x = [value, 0.0, 0.0];
+        record.x = [0.0; X];
+        record.x[0] = value;
         record.tx = t;
         Ok(())
     }
@@ -415,15 +453,16 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 }
 
-fn not_finite(state: StateIndex, time: f64, x: f64, rate: f64) -> Fault {
+fn not_finite(state: StateIndex, time: f64, x: f64, rate: &[f64]) -> Fault {
     if x.is_finite() {
-        Fault::NotFinite { state, time, value: rate }
+        let value = rate.iter().copied().find(|f| !f.is_finite()).unwrap_or(f64::NAN);
+        Fault::NotFinite { state, time, value }
     } else {
         Fault::StateNotFinite { state, time, value: x }
     }
 }
 
-impl<const ORDER: usize> Engine for Qss<ORDER> {
+impl<const ORDER: usize, const Q: usize, const X: usize> Engine for Qss<ORDER, Q, X> {
     fn start(&mut self, e: &Equations, start: &Start<'_>, journal: &mut Journal) -> Result<(), Fault> {
         let t = start.time;
         for (i, &value) in start.states.iter().enumerate() {
@@ -525,7 +564,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         self.records[source.position()].x_at(time)
     }
 
-    fn jet(&self, source: SourceIndex, time: f64) -> [f64; 3] {
+    fn jet(&self, source: SourceIndex, time: f64) -> Jet {
         self.records[source.position()].jet_at(time)
     }
 
@@ -557,7 +596,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
                     memory[at] = self.value(other, time);
                     memory[at + 1] = if other == source { 1.0 } else { 0.0 };
                 }
-                let [_, slope, _] = e.formula(formula, &self.locations, &mut memory, 2);
+                let [_, slope, ..] = e.formula(formula, &self.locations, &mut memory, 2);
                 entries.push((StateIndex::new(i), source, slope));
             }
         }

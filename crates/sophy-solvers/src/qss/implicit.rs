@@ -9,36 +9,59 @@
 //!
 //! For the second order q is a line about which x swings once: x − q is −δ now, δ/2 at τ = h, where both have the same
 //! slope, and −δ again at 2h, |δ| = ΔQ. With g = a²·q(0) + a·u + u̇ this gives ẍ = g/(1 − ha) and ⅓g·h² − aδ·h + δ = 0.
-//! On the average q is x, so that errors cancel; the literature lets the line touch x from one side, and takes twice as
-//! many steps for the same bound of |x − q|. For the first order q is ΔQ ahead and left ΔQ behind.
+//! For the third, q is a parabola about which x swings twice: x − q = δ(αz³ + (1 − α)z), z = 2τ/h − 1, from −δ to δ; the
+//! two swings in between stay below half of it (α = 5/2). With g = ½a²(a·q(0) + u) + ½a·u̇ + ½ü and y = 1/h this gives
+//! 24α·y³ − 12αa·y² + (2α + 1)a²·y = g/δ.
+//!
+//! On the average q is x, so that errors cancel; the literature lets q touch x from one side, and takes twice as many
+//! steps for the same bound of |x − q|. For the first order q is ΔQ ahead and left ΔQ behind.
 
 use super::engine::Qss;
 use sophy_field::Equations;
 
-/// The rate of a state along its quantised trajectory.
+/// The rate of a state along its quantised trajectory: a·q + u.
 #[derive(Clone, Copy, Debug)]
 struct Linear {
-    /// ∂f/∂q of the state itself, 1/s; negative.
+    /// ∂f/∂q of the state itself, 1/s; not positive.
     a: f64,
-    /// f and ḟ along the present q, which is q and q̇.
-    rate: [f64; 2],
-    q: [f64; 2],
+    /// u, u̇, ½ü.
+    u: [f64; 3],
 }
 
+/// α: how far x swings out between the ends of a quantised parabola.
+const SWING: f64 = 2.5;
+
 impl Linear {
-    /// Value and slope of the next quantised trajectory at x; the slope is 0 for order 1.
-    fn quantise<const ORDER: usize>(&self, x: f64, quantum: f64) -> [f64; 2] {
-        let Linear { a, rate, q } = *self;
-        let u = rate[0] - a * q[0];
-        if ORDER == 1 {
-            return [first(a, u, x, quantum), 0.0];
+    /// The next quantised trajectory at x; not finite where nothing is gained.
+    fn quantise<const ORDER: usize>(self, x: f64, quantum: f64) -> [f64; 3] {
+        match ORDER {
+            1 => [self.value(x, quantum), 0.0, 0.0],
+            2 => self.line(x, quantum),
+            _ => self.parabola(x, quantum),
         }
-        let u1 = rate[1] - a * q[1];
+    }
+
+    /// A quantum beside x on the side to which x goes, or where x rests.
+    fn value(self, x: f64, quantum: f64) -> f64 {
+        let Linear { a, u: [u, ..] } = self;
+        let rest = -u / a;
+        let rate = a * x + u;
+        if (rest - x).abs() <= quantum {
+            rest
+        } else if rate == 0.0 {
+            x
+        } else {
+            x + quantum.copysign(rate)
+        }
+    }
+
+    fn line(self, x: f64, quantum: f64) -> [f64; 3] {
+        let Linear { a, u: [u, u1, _] } = self;
         let drift = a * u + u1;
         // Where ẍ = 0.
         let rest = -drift / (a * a);
         if (rest - x).abs() <= quantum {
-            return [rest, a * rest + u];
+            return [rest, a * rest + u, 0.0];
         }
         // The chord of a convex parabola lies above it on both sides.
         let offset = if a * a * x + drift > 0.0 { -quantum } else { quantum };
@@ -46,24 +69,50 @@ impl Linear {
         let curvature = (a * a * start + drift).abs();
         let pull = a * quantum;
         let h = 1.5 * ((pull * pull + 4.0 / 3.0 * curvature * quantum).sqrt() - pull) / curvature;
-        [start, (a * start + u + h * u1) / (1.0 - h * a)]
+        [start, (a * start + u + h * u1) / (1.0 - h * a), 0.0]
+    }
+
+    fn parabola(self, x: f64, quantum: f64) -> [f64; 3] {
+        let Linear { a, u: [u, u1, u2] } = self;
+        let drift = a * (a * u + u1) + 2.0 * u2;
+        // Where the third derivative of x is 0.
+        let rest = -drift / (a * a * a);
+        if (rest - x).abs() <= quantum {
+            let slope = a * rest + u;
+            return [rest, slope, 0.5 * (a * slope + u1)];
+        }
+        let delta = quantum.copysign(a * a * a * x + drift);
+        let start = x + delta;
+        let g = 0.5 * (a * a * a * start + drift) / delta;
+        let y = positive_root([(2.0 * SWING + 1.0) * a * a, -12.0 * SWING * a, 24.0 * SWING], g);
+        let slope = a * start + u - (4.0 * SWING + 2.0) * delta * y;
+        [start, slope, 0.5 * (a * slope + u1) + 12.0 * SWING * delta * y * y]
     }
 }
 
-/// A quantum beside x on the side to which x goes, or where x rests.
-fn first(a: f64, u: f64, x: f64, quantum: f64) -> f64 {
-    let rest = -u / a;
-    let rate = a * x + u;
-    if (rest - x).abs() <= quantum {
-        rest
-    } else if rate == 0.0 {
-        x
-    } else {
-        x + quantum.copysign(rate)
+/// The root of c₁y + c₂y² + c₃y³ = g, all of which are positive, or c₁ and c₂ 0.
+///
+/// The polynomial is convex: Newton's method comes down from where any one term alone would be g.
+fn positive_root([c1, c2, c3]: [f64; 3], g: f64) -> f64 {
+    let mut y = libm::cbrt(g / c3);
+    for alone in [(g / c2).sqrt(), g / c1] {
+        y = if alone < y { alone } else { y };
     }
+    for _ in 0..MOST_STEPS {
+        let next = y - (y * (c1 + y * (c2 + y * c3)) - g) / (c1 + y * (2.0 * c2 + y * (3.0 * c3)));
+        // Rounding stops it.
+        if next >= y || next.is_nan() {
+            break;
+        }
+        y = next;
+    }
+    y
 }
 
-impl<const ORDER: usize> Qss<ORDER> {
+/// From above, Newton's method takes fewer than ten.
+const MOST_STEPS: u32 = 32;
+
+impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
     /// Value and slope of the next quantised trajectory of a state whose own rate pulls it back; `None` if it does not.
     pub(super) fn quantise_ahead(
         &mut self,
@@ -71,13 +120,18 @@ impl<const ORDER: usize> Qss<ORDER> {
         i: usize,
         t: f64,
         quantum: f64,
-    ) -> Option<[f64; 2]> {
+    ) -> Option<[f64; Q]> {
         let a = self.own_slope(e, i, t);
         let record = &self.records[i];
-        let linear =
-            Linear { a, rate: [record.slope_at(t), 2.0 * record.x[2]], q: [record.q_at(t), record.q[1]] };
-        let q = linear.quantise::<ORDER>(record.x_at(t), quantum);
-        (a <= 0.0 && q[0].is_finite() && q[1].is_finite()).then_some(q)
+        let (x, q) = (record.x_from(t), record.q_from(t));
+        let mut u = [0.0; 3];
+        for k in 0..ORDER {
+            u[k] = (k + 1) as f64 * x[k + 1] - a * q[k];
+        }
+        let ahead = Linear { a, u }.quantise::<ORDER>(x[0], quantum);
+        let mut q = [0.0; Q];
+        q.copy_from_slice(&ahead[..Q]);
+        (a <= 0.0 && q.iter().all(|q| q.is_finite())).then_some(q)
     }
 
     /// ∂f/∂q of a state by its own quantised trajectory: the coefficient of a motion of this state alone.

@@ -1,7 +1,7 @@
 //! Quantised-state methods.
 //!
-//! A state has two trajectories: x(t), a parabola (QSS1: a line) that integrates its rate, and q(t), a line
-//! (QSS1: a constant) that the rates of others read. When they differ by the quantum ΔQ, q is set to x:
+//! A state has two trajectories: x(t), a parabola (QSS1: a line, QSS3: a cubic) that integrates its rate, and q(t), a line
+//! (QSS1: a constant, QSS3: a parabola) that the rates of others read. When they differ by the quantum ΔQ, q is set to x:
 //!
 //! | thesis | here |
 //! | --- | --- |
@@ -25,5 +25,5 @@ mod settings;
 mod stairs;
 mod watches;
 
-pub use engine::Qss;
+pub use engine::{Qss, Qss1, Qss2, Qss3};
 pub use settings::{Quantum, Settings};

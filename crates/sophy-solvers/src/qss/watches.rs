@@ -1,8 +1,8 @@
 //! Watches: the first sign change of a guard's or switch's quantity, located on x.
 
 use super::engine::{MOST_REPEATS, Qss};
-use sophy_field::{Equations, Fault, Formula, Journal, Record, SourceIndex, WatchIndex, sign_bit};
-use sophy_segment::{Interval, Search, Sign, Start, first_crossing, parabola_crossing};
+use sophy_field::{Equations, Fault, Formula, Jet, Journal, Record, SourceIndex, WatchIndex, sign_bit};
+use sophy_segment::{Interval, Search, Sign, Start, cubic_crossing, first_crossing, parabola_crossing};
 use std::cmp::Reverse;
 
 /// What is known of a watch.
@@ -81,7 +81,7 @@ impl Default for WatchRecord {
     }
 }
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
     pub(super) fn arm(&mut self, watch: WatchIndex) {
         let record = &mut self.watches[watch.position()];
         record.armed += 1;
@@ -267,9 +267,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         e: &Equations,
         watch: WatchIndex,
         t: f64,
-        c: &[f64; 3],
+        c: &Jet,
     ) -> Result<Sign, Fault> {
-        if *c != [0.0; 3] || e.watches[watch.position()].affine {
+        if *c != [0.0; 4] || e.watches[watch.position()].affine {
             return Ok(Sign::after(c));
         }
         let start = Start { sign: Sign::Zero, on_surface: true };
@@ -367,11 +367,14 @@ impl<const ORDER: usize> Qss<ORDER> {
             // Not `t` plus the rest, which would be rounded.
             (self.value_of(e, &code.right, t, 1)[0].max(t), Due::Root)
         } else if code.affine {
-            match parabola_crossing(c, sign) {
+            let [c0, c1, c2, _] = c;
+            let crossing =
+                if ORDER > 2 { cubic_crossing(c, sign) } else { parabola_crossing([c0, c1, c2], sign) };
+            match crossing {
                 Some(delay) => (t + delay, if delay > 0.0 { Due::Root } else { Due::Joint }),
                 None => (f64::INFINITY, Due::Root),
             }
-        } else if c != [0.0; 3] && Sign::after(&c) != sign {
+        } else if c != [0.0; 4] && Sign::after(&c) != sign {
             (t, Due::Joint)
         } else {
             self.search(e, watch, t, c[0] == 0.0)?
@@ -426,7 +429,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &source in e.sources(&formula.sources) {
             let at = e.layout.series_of(source);
             let jet = self.records[source.position()].enclose(times);
-            self.enclosed[at..at + ORDER + 1].copy_from_slice(&jet[..=ORDER]);
+            let width = (ORDER + 1).min(3);
+            self.enclosed[at..at + width].copy_from_slice(&jet[..width]);
         }
         let mut jet = e.formula_enclosed(formula, &self.locations, &mut self.enclosed);
         jet[0] = jet[0] - Interval::point(self.watches[watch.position()].bias);
@@ -434,39 +438,36 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// Taylor coefficients of the watched difference at `t`, the bias taken off.
-    pub(super) fn difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<[f64; 3], Fault> {
+    pub(super) fn difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<Jet, Fault> {
         let mut c = self.raw_difference(e, watch, t)?;
         c[0] -= self.watches[watch.position()].bias;
         Ok(c)
     }
 
-    pub(super) fn raw_difference(
-        &mut self,
-        e: &Equations,
-        watch: WatchIndex,
-        t: f64,
-    ) -> Result<[f64; 3], Fault> {
+    pub(super) fn raw_difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<Jet, Fault> {
         let code = &e.watches[watch.position()];
-        let [value, c1, c2] = match code.level {
+        let c = match code.level {
             Some((source, number)) => {
-                let [value, c1, c2] = self.records[source.position()].jet_at(t);
-                [number.map_or(value, |at| value - self.memory[at as usize]), c1, c2]
+                let mut c = self.records[source.position()].jet_at(t);
+                c[0] = number.map_or(c[0], |at| c[0] - self.memory[at as usize]);
+                c
             }
             None => self.value_of(e, &code.formula, t, ORDER + 1),
         };
+        let [value, rest @ ..] = c;
         if !value.is_finite() {
             return Err(Fault::WatchNotFinite { watch, time: t, value });
         }
         // A derivative may be infinite where the value is not (√x at 0): then only enclosures help.
-        if c1.is_finite() && c2.is_finite() { Ok([value, c1, c2]) } else { Ok([value, 0.0, 0.0]) }
+        if rest.iter().all(|c| c.is_finite()) { Ok(c) } else { Ok([value, 0.0, 0.0, 0.0]) }
     }
 
     /// A formula on the series side at `t`.
     #[inline]
-    pub(super) fn value_of(&mut self, e: &Equations, formula: &Formula, t: f64, orders: usize) -> [f64; 3] {
+    pub(super) fn value_of(&mut self, e: &Equations, formula: &Formula, t: f64, orders: usize) -> Jet {
         for &source in e.sources(&formula.sources) {
             let at = e.layout.series_of(source);
-            let jet = self.records[source.position()].jet_at(t);
+            let jet = self.records[source.position()].x_from(t);
             self.memory[at..at + ORDER + 1].copy_from_slice(&jet[..=ORDER]);
         }
         e.formula(formula, &self.locations, &mut self.memory, orders)
