@@ -7,6 +7,7 @@
 //! that stands beside it.
 
 mod build;
+mod case;
 mod floor;
 mod hopper;
 mod language;

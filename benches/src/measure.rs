@@ -6,6 +6,8 @@ use std::time::Instant;
 pub struct Measured {
     /// Which problem.
     pub bench: &'static str,
+    /// By which engine.
+    pub method: &'static str,
     /// Who solved it.
     pub by: &'static str,
     /// What it took.
@@ -43,22 +45,23 @@ pub struct Times {
     pub ratio: f64,
 }
 
-/// Runs two rivals in turn, `repetitions` times each after one that does not count, and gives their times with
-/// their last results.
-pub fn alternate<A, B>(
+/// Runs two rivals in turn, the second on what `begin` makes, `repetitions` times each, and gives their times with
+/// their last results. The first pair does not count.
+pub fn alternate<A, S>(
     repetitions: usize,
     mut first: impl FnMut() -> A,
-    mut second: impl FnMut() -> B,
-) -> (Times, A, B) {
-    let (mut a, mut b) = (first(), second());
+    begin: impl Fn() -> S,
+    second: impl Fn(&mut S),
+) -> (Times, A, S) {
+    let (mut a, mut b) = (first(), begin());
+    second(&mut b);
     let (mut first_times, mut second_times) = (Vec::new(), Vec::new());
     for _ in 0..repetitions {
+        b = begin();
         let (result, time) = timed(&mut first);
         a = result;
         first_times.push(time);
-        let (result, time) = timed(&mut second);
-        b = result;
-        second_times.push(time);
+        second_times.push(timed(&mut || second(&mut b)).1);
     }
     let ratios = first_times.iter().zip(&second_times).map(|(first, second)| second.cpu_ms / first.cpu_ms);
     let times = Times { ratio: median(ratios), first: medians(&first_times), second: medians(&second_times) };

@@ -6,15 +6,16 @@ use serde_json::json;
 /// The table for people.
 pub fn markdown(results: &[Measured]) -> String {
     let mut text = String::from(
-        "| bench | by | wall, ms | × real time | CPU, ms | steps | ns per step | transitions | error | error of | × floor |\n\
-         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
+        "| bench | engine | by | wall, ms | × real time | CPU, ms | steps | ns per step | transitions | error | error of | × floor |\n\
+         | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
     );
     for r in results {
         let transitions = r.transitions.map_or_else(|| "–".to_owned(), |n| n.to_string());
         let ratio = r.ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}"));
         text += &format!(
-            "| {} | {} | {:.3} | {:.0} | {:.3} | {} | {:.1} | {transitions} | {:.1e} | {} | {ratio} |\n",
+            "| {} | {} | {} | {:.3} | {:.0} | {:.3} | {} | {:.1} | {transitions} | {:.1e} | {} | {ratio} |\n",
             r.bench,
+            r.method,
             r.by,
             r.time.wall_ms,
             real_time(r),
@@ -108,6 +109,7 @@ pub fn json(results: &[Measured], built: &[Built], told: &[Told]) -> String {
         .map(|r| {
             json!({
                 "bench": r.bench,
+                "engine": r.method,
                 "by": r.by,
                 "wall_ms": r.time.wall_ms,
                 "cpu_ms": r.time.cpu_ms,

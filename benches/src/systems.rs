@@ -1,68 +1,54 @@
 //! Systems of the literature on quantised states: a stiff pair, a front that travels through cells at rest, and a line
-//! of coils and capacitors. Native code, made before; nothing recorded.
+//! of coils and capacitors.
 
-use crate::measure::{Measured, repeat};
-use sophy_field::StateIndex;
-use sophy_ir::{Model, System};
-use sophy_passes::lower;
-use sophy_run::{Backend, Experiment, Method, Pause, Quantum, QuantumRule, Run};
+use crate::case::{Case, bits, bits_of, largest_error};
+use crate::floor::line::run as floor;
+use crate::measure::Measured;
+use sophy_run::{Method, Run};
 use sophy_testkit::stiff::{AdvectionReaction, LcLine, Smooth, stiff_pair, stiff_pair_at};
-use std::sync::Arc;
 
 const REPETITIONS: usize = 7;
+const SECTIONS: usize = 500;
 
 /// All of them.
 pub fn bench() -> Vec<Measured> {
-    let pair = stiff_pair_at(500.0).to_vec();
-    let (front, line) = (AdvectionReaction(1000), LcLine(500));
-    let (front_end, line_end) = (front.runge_kutta(1.0, 2e-4), line.runge_kutta(100.0, 0.01));
-    vec![
-        measure("stiff pair", &stiff_pair(), Method::Qss2, 1e-3, 500.0, &pair),
-        measure("stiff pair", &stiff_pair(), Method::Liqss2, 1e-3, 500.0, &pair),
-        measure("advection–reaction-1000", &front.model(), Method::Qss2, 1e-3, 1.0, &front_end),
-        measure("advection–reaction-1000", &front.model(), Method::Liqss2, 1e-3, 1.0, &front_end),
-        measure("LC line-1000", &line.model(), Method::Qss2, 1e-4, 100.0, &line_end),
-        measure("LC line-1000", &line.model(), Method::Liqss2, 1e-4, 100.0, &line_end),
-    ]
+    [pair(), front(), line()].concat()
 }
 
-fn measure(
-    bench: &'static str,
-    model: &Model,
-    method: Method,
-    quantum: f64,
-    stop: f64,
-    expected: &[f64],
-) -> Measured {
-    let system: Arc<System> = Arc::new(lower(model).expect("it is sound"));
-    let experiment = Experiment {
-        stop,
-        method,
-        backend: Backend::Native,
-        quanta: vec![QuantumRule { pattern: "*".to_owned(), quantum: Quantum::absolute(quantum) }],
-        ..Experiment::default()
+fn pair() -> Vec<Measured> {
+    let end = stiff_pair_at(500.0);
+    let case = Case::new("stiff pair", &stiff_pair(), Method::Qss2, 1e-3, 500.0);
+    by_each(&case, &[Method::Qss2, Method::Liqss2, Method::Liqss3], &end)
+}
+
+fn front() -> Vec<Measured> {
+    let front = AdvectionReaction(1000);
+    let end = front.runge_kutta(1.0, 2e-4);
+    let case = Case::new("advection–reaction-1000", &front.model(), Method::Qss2, 1e-3, 1.0);
+    by_each(&case, &[Method::Qss2, Method::Liqss2, Method::Liqss3], &end)
+}
+
+/// QSS2 beside the floor, to the bit; the others alone.
+fn line() -> Vec<Measured> {
+    let line = LcLine(SECTIONS);
+    let (quantum, stop) = (1e-4, 100.0);
+    let end = line.runge_kutta(stop, 0.01);
+    let case = Case::new("LC line-1000", &line.model(), Method::Qss2, quantum, stop);
+    let error = |x: &[f64]| {
+        let errors = x.iter().zip(&end).map(|(x, end)| (x - end).abs());
+        (ANY, errors.fold(0.0, f64::max))
     };
-    let begin = || {
-        let mut run = Run::new(Arc::clone(&system), &experiment).expect("it starts");
-        run.journal.wanted = false;
-        run
-    };
-    let (time, run) = repeat(REPETITIONS, begin, |run| {
-        assert_eq!(run.advance(stop, u64::MAX).expect("it goes on"), Pause::Reached);
-    });
-    let error = |(i, x): (usize, &f64)| (run.state(StateIndex::new(i)) - x).abs();
-    Measured {
-        bench,
-        by: match method {
-            Method::Qss2 => "qss2",
-            _ => "liqss2",
-        },
-        time,
-        simulated: stop,
-        steps: run.statistics().engine.steps,
-        transitions: None,
-        error_of: "any state at the end",
-        error: expected.iter().enumerate().map(error).fold(0.0, f64::max),
-        ratio: None,
-    }
+    let (mut rows, given, run) =
+        case.against(REPETITIONS, || floor(SECTIONS, stop, quantum), |given| error(&given.end));
+    assert_eq!(run.statistics().engine.steps, given.steps, "steps");
+    assert_eq!(bits(&run, 2 * SECTIONS), bits_of(&given.end), "the states at the end");
+    rows.extend(by_each(&case, &[Method::Qss3, Method::Liqss2], &end));
+    rows
+}
+
+const ANY: &str = "any state at the end";
+
+fn by_each(case: &Case, methods: &[Method], end: &[f64]) -> Vec<Measured> {
+    let error = |run: &Run| (ANY, largest_error(run, end));
+    methods.iter().map(|&method| case.by(method).alone(REPETITIONS, error)).collect()
 }

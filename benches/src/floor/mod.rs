@@ -6,5 +6,6 @@
 //! values that are not finite, bounds on repetition. The closed form of a crossing is that of `sophy-segment`.
 
 pub mod hopper;
+pub mod line;
 pub mod oscillator;
 mod state;
