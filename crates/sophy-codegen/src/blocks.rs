@@ -76,7 +76,7 @@ impl<'a> Gather<'a> {
         }
         Gather {
             system,
-            memory: Memory::new(system, order + 1),
+            memory: Memory::new(system, order),
             shapes: Shapes::default(),
             blocks: Vec::new(),
             calls: Vec::new(),

@@ -3,48 +3,114 @@
 
 use crate::jet;
 use crate::scalar::Scalar;
-use sophy_field::{Code, Program};
+use sophy_field::{Code, Enclosing, NOW, Program};
 use sophy_segment::Interval;
 
 /// Runs `program` on numbers; see [`sophy_field::Run`].
 pub fn run(program: &Program, operands: &[u32], memory: &mut [f64], orders: usize) {
-    dispatch(program, operands, memory, orders);
+    dispatch(program, operands, &mut Numbers(memory), orders);
 }
 
 /// Runs `program` on enclosures; see [`sophy_field::Enclose`].
-pub fn enclose(program: &Program, operands: &[u32], memory: &mut [Interval], orders: usize) {
+pub fn enclose(program: &Program, operands: &[u32], memory: &mut Enclosing<'_>, orders: usize) {
     dispatch(program, operands, memory, orders);
 }
 
 #[inline]
-fn dispatch<T: Scalar>(program: &Program, operands: &[u32], memory: &mut [T], orders: usize) {
+fn dispatch<T: Scalar>(program: &Program, operands: &[u32], memory: &mut impl Bank<T>, orders: usize) {
     match orders {
-        1 => execute::<T, 1>(program, operands, memory),
-        2 => execute::<T, 2>(program, operands, memory),
-        3 => execute::<T, 3>(program, operands, memory),
-        _ => execute::<T, 4>(program, operands, memory),
+        1 => execute::<T, _, 1>(program, operands, memory),
+        2 => execute::<T, _, 2>(program, operands, memory),
+        3 => execute::<T, _, 3>(program, operands, memory),
+        _ => execute::<T, _, 4>(program, operands, memory),
     }
 }
 
-#[inline]
-fn load<T: Copy, const N: usize>(memory: &[T], at: u32) -> [T; N] {
-    let at = at as usize;
-    let slice = &memory[at..at + N];
-    std::array::from_fn(|k| slice[k])
+/// Memory of some kind of numbers.
+pub(crate) trait Bank<T: Scalar> {
+    /// The present time, s.
+    fn now(&self) -> T;
+    fn get(&self, at: u32) -> T;
+    fn set(&mut self, at: u32, value: T);
+    /// The numbers of a column: they stand behind their count.
+    fn column(&self, at: u32) -> &[T];
+
+    #[inline]
+    fn load<const N: usize>(&self, at: u32) -> [T; N] {
+        std::array::from_fn(|k| self.get(at + k as u32))
+    }
+    #[inline]
+    fn store<const N: usize>(&mut self, at: u32, value: [T; N]) {
+        for (at, value) in (at..).zip(value) {
+            self.set(at, value);
+        }
+    }
 }
 
-#[inline]
-fn store<T: Copy, const N: usize>(memory: &mut [T], at: u32, value: [T; N]) {
-    let at = at as usize;
-    memory[at..at + N].copy_from_slice(&value);
+/// All of memory as numbers.
+pub(crate) struct Numbers<'a, T>(pub(crate) &'a mut [T]);
+
+impl<T: Scalar> Bank<T> for Numbers<'_, T> {
+    #[inline]
+    fn now(&self) -> T {
+        self.0[NOW]
+    }
+    #[inline]
+    fn get(&self, at: u32) -> T {
+        self.0[at as usize]
+    }
+    #[inline]
+    fn set(&mut self, at: u32, value: T) {
+        self.0[at as usize] = value;
+    }
+    #[inline]
+    fn column(&self, at: u32) -> &[T] {
+        numbers_of(&self.0[at as usize..])
+    }
+    #[inline]
+    fn load<const N: usize>(&self, at: u32) -> [T; N] {
+        let slice = &self.0[at as usize..][..N];
+        std::array::from_fn(|k| slice[k])
+    }
+    #[inline]
+    fn store<const N: usize>(&mut self, at: u32, value: [T; N]) {
+        self.0[at as usize..][..N].copy_from_slice(&value);
+    }
 }
 
-pub(crate) fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[u32], memory: &mut [T]) {
-    // Behind a scalar stands something too: what is copied with it is never read.
+impl Bank<Interval> for Enclosing<'_> {
+    fn now(&self) -> Interval {
+        self.now
+    }
+    #[inline]
+    fn get(&self, at: u32) -> Interval {
+        Enclosing::get(self, at)
+    }
+    #[inline]
+    fn set(&mut self, at: u32, value: Interval) {
+        // What programs write stands behind the records.
+        self.enclosed[(at - self.rest) as usize] = value;
+    }
+    fn column(&self, at: u32) -> &[Interval] {
+        numbers_of(&self.enclosed[(at - self.rest) as usize..])
+    }
+}
+
+fn numbers_of<T: Scalar>(column: &[T]) -> &[T] {
+    &column[1..=column[0].count()]
+}
+
+pub(crate) fn execute<T: Scalar, B: Bank<T>, const N: usize>(
+    program: &Program,
+    operands: &[u32],
+    memory: &mut B,
+) {
+    // Behind a scalar stands something too: what is copied with it is never read, nor is a trajectory, which its
+    // instruction follows.
     let mut to = program.gather;
     for &operand in operands {
-        let value = load::<T, N>(memory, operand);
-        store(memory, to, value);
+        let value = memory.load::<N>(operand);
+        memory.store(to, value);
         to += program.stride;
     }
     let mut next = 0;
@@ -53,12 +119,12 @@ pub(crate) fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[
         let (to, a, b) = (instruction.to, instruction.a, instruction.b);
         macro_rules! jet {
             ($at:expr) => {
-                load::<T, N>(memory, $at)
+                memory.load::<N>($at)
             };
         }
         macro_rules! scalar {
             ($at:expr) => {
-                memory[$at as usize]
+                memory.get($at)
             };
         }
         let value: [T; N] = match instruction.code {
@@ -128,38 +194,38 @@ pub(crate) fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[
             Code::CopyJ => jet!(a),
             Code::Spread => constant(scalar!(a)),
             Code::Less => {
-                memory[to as usize] = truth(scalar!(a).less(scalar!(b)));
+                memory.set(to, truth(scalar!(a).less(scalar!(b))));
                 continue;
             }
             Code::LessEqual => {
                 let (x, y) = (scalar!(a), scalar!(b));
-                memory[to as usize] = T::choose(x.less(y), || [T::of(1.0)], || [truth(x.equal(y))])[0];
+                memory.set(to, T::choose(x.less(y), || [T::of(1.0)], || [truth(x.equal(y))])[0]);
                 continue;
             }
             Code::Equal => {
-                memory[to as usize] = truth(scalar!(a).equal(scalar!(b)));
+                memory.set(to, truth(scalar!(a).equal(scalar!(b))));
                 continue;
             }
             Code::Locate => {
-                memory[to as usize] = scalar!(a).locate(column(memory, b));
+                memory.set(to, scalar!(a).locate(memory.column(b)));
                 continue;
             }
             Code::Lookup => {
-                memory[to as usize] = scalar!(a).lookup(column(memory, b));
+                memory.set(to, scalar!(a).lookup(memory.column(b)));
                 continue;
             }
             Code::Not => {
-                memory[to as usize] = T::choose(is_zero(scalar!(a)), || [T::of(1.0)], || [T::of(0.0)])[0];
+                memory.set(to, T::choose(is_zero(scalar!(a)), || [T::of(1.0)], || [T::of(0.0)])[0]);
                 continue;
             }
             Code::And => {
-                memory[to as usize] =
-                    T::choose(is_zero(scalar!(a)), || [T::of(0.0)], || [as_truth(scalar!(b))])[0];
+                let both = T::choose(is_zero(scalar!(a)), || [T::of(0.0)], || [as_truth(scalar!(b))])[0];
+                memory.set(to, both);
                 continue;
             }
             Code::Or => {
-                memory[to as usize] =
-                    T::choose(is_zero(scalar!(a)), || [as_truth(scalar!(b))], || [T::of(1.0)])[0];
+                let either = T::choose(is_zero(scalar!(a)), || [as_truth(scalar!(b))], || [T::of(1.0)])[0];
+                memory.set(to, either);
                 continue;
             }
             Code::JumpIfZero => {
@@ -174,19 +240,33 @@ pub(crate) fn execute<T: Scalar, const N: usize>(program: &Program, operands: &[
             }
             Code::Store => {
                 let value = jet!(a);
-                store(memory, operands[to as usize], value);
+                memory.store(operands[to as usize], value);
                 continue;
             }
+            Code::Follow => follow(memory, a, b),
+            Code::FollowOperand => follow(memory, operands[a as usize], b),
         };
-        store(memory, to, value);
+        memory.store(to, value);
     }
 }
 
-/// The numbers of a column: they stand behind their count.
+/// The jet of a trajectory at the present time.
 #[inline]
-fn column<T: Scalar>(memory: &[T], at: u32) -> &[T] {
-    let first = at as usize + 1;
-    &memory[first..first + memory[at as usize].count()]
+fn follow<T: Scalar, B: Bank<T>, const N: usize>(memory: &B, at: u32, coefficients: u32) -> [T; N] {
+    match coefficients {
+        2 => {
+            let [c0, c1, start] = memory.load(at);
+            T::follow(&[c0, c1], memory.now() - start)
+        }
+        3 => {
+            let [c0, c1, c2, start] = memory.load(at);
+            T::follow(&[c0, c1, c2], memory.now() - start)
+        }
+        _ => {
+            let [c0, c1, c2, c3, start] = memory.load(at);
+            T::follow(&[c0, c1, c2, c3], memory.now() - start)
+        }
+    }
 }
 
 #[inline]

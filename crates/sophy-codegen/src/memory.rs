@@ -1,9 +1,29 @@
 //! Where everything that outlives a program stands.
 
-use sophy_field::{ColumnIndex, Layout, Operand, SourceIndex};
+use sophy_field::{ColumnIndex, Layout, RecordLayout, SourceIndex};
 use sophy_ir::{Leaf, Node, NodeId, System};
 
-/// Which jets a program reads: q for rates, x for guards, resets and outputs.
+/// Where something stands that needs no arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// A jet.
+    Jet(u32),
+    /// A scalar.
+    Scalar(u32),
+    /// A trajectory, to be followed to the present time, and how many coefficients it has.
+    Trajectory(u32, u32),
+}
+
+impl Place {
+    /// Where it begins.
+    pub(crate) fn offset(self) -> u32 {
+        match self {
+            Place::Jet(at) | Place::Scalar(at) | Place::Trajectory(at, _) => at,
+        }
+    }
+}
+
+/// Which trajectories a program reads: q for rates, x for guards, resets and outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Quantised,
@@ -32,12 +52,14 @@ pub(crate) struct Memory {
 const ABSENT: u32 = u32::MAX;
 
 impl Memory {
-    pub(crate) fn new(system: &System, width: u32) -> Self {
+    pub(crate) fn new(system: &System, order: u32) -> Self {
+        let (width, record) = (order + 1, RecordLayout::of_order(order));
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX / 8);
         let (states, inputs) = (count(system.states.len()), count(system.inputs.len()));
-        let sources = (states + inputs + 1) * width;
+        // The head is as long as a record.
+        let rest = (1 + states + inputs + 1) * record.stride;
         let algebraics = count(system.algebraics.len()) * width;
-        let truths = 2 * sources + 2 * algebraics;
+        let truths = rest + 2 * algebraics;
         let stairs = truths + count(system.truths.len());
         let parameters = stairs + count(system.stairs.len());
         let mut end = parameters + count(system.parameters.len());
@@ -47,17 +69,8 @@ impl Memory {
             end += 1 + count(column.numbers.len());
         }
         Memory {
-            layout: Layout {
-                width,
-                states,
-                inputs,
-                quantised: 0,
-                series: sources,
-                truths,
-                stairs,
-                length: 0,
-            },
-            algebraics: [2 * sources, 2 * sources + algebraics],
+            layout: Layout { width, states, inputs, record, rest, truths, stairs, length: 0 },
+            algebraics: [rest, rest + algebraics],
             parameters,
             columns,
             pool: end,
@@ -82,27 +95,29 @@ impl Memory {
         self.algebraics[side as usize] + index as u32 * self.layout.width
     }
 
-    /// Where a node stands that needs no instruction: a leaf, or what depends on parameters only, which is
-    /// evaluated once, before the run.
-    pub(crate) fn place(&mut self, system: &System, side: Side, node: NodeId) -> Option<Operand> {
+    /// Where a node stands: a leaf, or what depends on parameters only, which is evaluated once, before the run.
+    pub(crate) fn place(&mut self, system: &System, side: Side, node: NodeId) -> Option<Place> {
         let layout = self.layout;
         let source = |index: u32| {
-            let first = if side == Side::Quantised { layout.quantised } else { layout.series };
-            Operand::Jet(first + index * layout.width)
+            let (record, source) = (layout.record, SourceIndex(index));
+            match side {
+                Side::Quantised => Place::Trajectory(layout.quantised_of(source) as u32, record.quantised),
+                Side::Series => Place::Trajectory(layout.record_of(source) as u32, record.integrated),
+            }
         };
         Some(match system.graph.node(node) {
             Node::Leaf(leaf) => match leaf {
                 Leaf::State(i) => source(i.0),
                 Leaf::Input(i) => source(layout.states + i.0),
                 Leaf::Time => source(layout.states + layout.inputs),
-                Leaf::Parameter(i) => Operand::Scalar(self.parameters + i.0),
-                Leaf::Truth(i) => Operand::Scalar(layout.truths + i.0),
-                Leaf::Stair(i) => Operand::Scalar(layout.stairs + i.0),
-                Leaf::Algebraic(i) => Operand::Jet(self.algebraic(side, i.position())),
+                Leaf::Parameter(i) => Place::Scalar(self.parameters + i.0),
+                Leaf::Truth(i) => Place::Scalar(layout.truths + i.0),
+                Leaf::Stair(i) => Place::Scalar(layout.stairs + i.0),
+                Leaf::Algebraic(i) => Place::Jet(self.algebraic(side, i.position())),
                 // Only models refer to variables; the verifier has seen to it.
-                Leaf::Variable(_) | Leaf::Special(_) => Operand::Scalar(self.parameters),
+                Leaf::Variable(_) | Leaf::Special(_) => Place::Scalar(self.parameters),
             },
-            _ if self.is_parametric(node) => Operand::Scalar(self.pooled(node)),
+            _ if self.is_parametric(node) => Place::Scalar(self.pooled(node)),
             _ => return None,
         })
     }

@@ -1,6 +1,6 @@
 //! One expression (or several that share subexpressions) → one program.
 
-use crate::memory::{Memory, Side};
+use crate::memory::{Memory, Place, Side};
 use sophy_field::{Code, Instruction, Operand, Program};
 use sophy_ir::{Binary, Comparison, Node, NodeId, System, Unary};
 
@@ -60,10 +60,18 @@ impl<'a> Compiler<'a> {
         self.used = operands * self.width;
     }
 
-    /// Says that the operand of this number is the value of `node`.
-    pub(crate) fn gathered(&mut self, node: NodeId, number: u32, jet: bool) {
+    /// Says that the operand of this number, which stands at places like `place`, is the value of `node`.
+    pub(crate) fn gathered(&mut self, node: NodeId, number: u32, place: Place) {
         let at = self.base + number * self.width;
-        self.remember(node, if jet { Operand::Jet(at) } else { Operand::Scalar(at) });
+        let operand = match place {
+            Place::Scalar(_) => Operand::Scalar(at),
+            Place::Jet(_) => Operand::Jet(at),
+            Place::Trajectory(_, coefficients) => {
+                self.push(Code::FollowOperand, at, number, coefficients);
+                Operand::Jet(at)
+            }
+        };
+        self.remember(node, operand);
     }
 
     /// Computes `roots`; where their values stand once the program has run. One root may be stored in the jet
@@ -192,8 +200,11 @@ impl Step<'_, '_> {
     }
 
     fn node(&mut self, id: NodeId) -> Operand {
-        if let Some(operand) = self.memory.place(self.compiler.system, self.side, id) {
-            return operand;
+        match self.memory.place(self.compiler.system, self.side, id) {
+            Some(Place::Scalar(at)) => return Operand::Scalar(at),
+            Some(Place::Jet(at)) => return Operand::Jet(at),
+            Some(Place::Trajectory(at, coefficients)) => return self.emit(Code::Follow, at, coefficients),
+            None => {}
         }
         match self.compiler.system.graph.node(id) {
             // These have a place.

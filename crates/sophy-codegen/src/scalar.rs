@@ -46,6 +46,22 @@ pub(crate) trait Scalar:
         yes: impl FnOnce() -> [Self; N],
         no: impl FnOnce() -> [Self; N],
     ) -> [Self; N];
+    /// The jet, s after its start, of a trajectory with two to four coefficients.
+    #[inline]
+    fn follow<const N: usize>(c: &[Self], s: Self) -> [Self; N] {
+        let (two, three) = (Self::of(2.0), Self::of(3.0));
+        let mut all = [Self::of(0.0); 4];
+        match *c {
+            [c0, c1] => all = [c0 + s * c1, c1, all[2], all[3]],
+            [c0, c1, c2] => all = [c0 + s * (c1 + s * c2), c1 + two * s * c2, c2, all[3]],
+            [c0, c1, c2, c3] => {
+                let bend = s * (three * c3);
+                all = [c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (two * c2 + bend), c2 + bend, c3];
+            }
+            _ => {}
+        }
+        std::array::from_fn(|k| all[k])
+    }
     /// Whether a program jumps; known wherever programs with jumps are run.
     fn decided(truth: Self::Truth) -> bool;
 }
@@ -174,6 +190,10 @@ impl Scalar for Interval {
     fn integer_power(self, n: i32) -> Self {
         Interval::powi(self, n)
     }
+    fn follow<const N: usize>(c: &[Self], s: Self) -> [Self; N] {
+        let all = enclosed(c, s);
+        std::array::from_fn(|k| all[k])
+    }
     fn count(self) -> usize {
         self.midpoint() as usize
     }
@@ -193,4 +213,29 @@ impl Scalar for Interval {
     fn equal(self, other: Self) -> bool {
         self == other
     }
+}
+
+/// Enclosures of a polynomial and of its Taylor coefficients over `s`.
+fn enclosed(c: &[Interval], s: Interval) -> [Interval; 4] {
+    let number = Interval::point;
+    let coefficient = |k: usize| c.get(k).copied().unwrap_or(Interval::ZERO);
+    let [c0, c1, c2, c3] = [0, 1, 2, 3].map(coefficient);
+    let cubic = c.len() > 3;
+    // The mean-value form is the tighter one on short spans, the power form keeps exact points.
+    let (middle, square) = (number(s.midpoint()), s.square());
+    let bend = number(3.0) * c3;
+    let curvature = if cubic { c2 + bend * s } else { c2 };
+    let slope = if cubic {
+        let power = c1 + number(2.0) * c2 * s + bend * square;
+        let centred =
+            c1 + middle * (number(2.0) * c2 + bend * middle) + number(2.0) * curvature * (s - middle);
+        power.intersection(centred).unwrap_or(power)
+    } else {
+        c1 + number(2.0) * c2 * s
+    };
+    let power = c0 + c1 * s + c2 * square;
+    let power = if cubic { power + c3 * square * s } else { power };
+    let inner = if cubic { c2 + middle * c3 } else { c2 };
+    let centred = c0 + middle * (c1 + middle * inner) + slope * (s - middle);
+    [power.intersection(centred).unwrap_or(power), slope, curvature, c3]
 }

@@ -1,7 +1,7 @@
 //! Equal equations are compiled once: what is to be computed is first written down by its *shape*, and becomes
 //! programs only when it is known how often each shape occurs.
 
-use crate::memory::{Memory, Side};
+use crate::memory::{Memory, Place, Side};
 use crate::programs::Compiler;
 use rustc_hash::FxHashMap;
 use sophy_field::{Call, Operand, Program};
@@ -74,7 +74,7 @@ impl Shapes {
     ) -> RequestIndex {
         let (first_root, first_operand) = (self.roots.len() as u32, self.operands.len() as u32);
         self.roots.extend_from_slice(roots);
-        self.reader.read(system, memory, roots, to.is_some());
+        self.reader.read(system, memory, side, roots, to.is_some());
         let mut shape = TRIVIAL;
         if self.reader.computes {
             shape = match self.known.get(self.reader.key.as_slice()) {
@@ -93,7 +93,7 @@ impl Shapes {
             memory.place(system, side, literal);
         }
         for &operand in &self.reader.operands {
-            let place = memory.place(system, side, operand).map(offset);
+            let place = memory.place(system, side, operand).map(Place::offset);
             self.operands.extend(place.filter(|_| shape != TRIVIAL));
         }
         self.operands.extend(to);
@@ -113,13 +113,7 @@ impl Shapes {
     }
 }
 
-fn offset(operand: Operand) -> u32 {
-    match operand {
-        Operand::Jet(at) | Operand::Scalar(at) => at,
-    }
-}
-
-/// Reads expressions into keys. Two have one key if they are the same up to which jets, scalars and numbers
+/// Reads expressions into keys. Two of one side have one key if they are the same up to which jets, scalars and numbers
 /// (but 0, ±1, 2 and ½) they read; what one of them reads twice the other does too.
 #[derive(Default)]
 struct Reader {
@@ -155,10 +149,11 @@ mod kind {
     pub(super) const STORED: u32 = 12;
     pub(super) const LOCATE: u32 = 13;
     pub(super) const LOOKUP: u32 = 14;
+    pub(super) const TRAJECTORY: u32 = 15;
 }
 
 impl Reader {
-    fn read(&mut self, system: &System, memory: &Memory, roots: &[NodeId], stored: bool) {
+    fn read(&mut self, system: &System, memory: &Memory, side: Side, roots: &[NodeId], stored: bool) {
         if self.numbers.len() < system.graph.len() {
             self.numbers.resize(system.graph.len(), (0, 0));
         }
@@ -169,6 +164,8 @@ impl Reader {
         self.literals.clear();
         self.leaves.clear();
         self.computes = stored;
+        // The trajectories of both sides have different lengths.
+        self.key.push(side as u32);
         for &root in roots {
             self.pending.push((root, false));
             while let Some((node, operands_read)) = self.pending.pop() {
@@ -214,8 +211,13 @@ impl Reader {
         self.operands.push(id);
         match node {
             Node::Leaf(leaf) => {
-                let jet = matches!(leaf, Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_));
-                self.key.push(if jet { kind::JET } else { kind::SCALAR });
+                let followed = matches!(leaf, Leaf::State(_) | Leaf::Input(_) | Leaf::Time);
+                self.computes |= followed;
+                self.key.push(match leaf {
+                    _ if followed => kind::TRAJECTORY,
+                    Leaf::Algebraic(_) => kind::JET,
+                    _ => kind::SCALAR,
+                });
                 if !matches!(leaf, Leaf::Parameter(_)) {
                     self.leaves.push(leaf);
                 }
@@ -300,7 +302,11 @@ impl<'a> Emitter<'a> {
         let roots = &self.shapes.roots[request.roots.start as usize..request.roots.end as usize];
         if request.shape == TRIVIAL {
             let (system, side) = (self.system, request.side);
-            results.extend(roots.iter().filter_map(|&root| self.memory.place(system, side, root)));
+            results.extend(roots.iter().filter_map(|&root| match self.memory.place(system, side, root)? {
+                Place::Jet(at) => Some(Operand::Jet(at)),
+                Place::Scalar(at) => Some(Operand::Scalar(at)),
+                Place::Trajectory(..) => None,
+            }));
             return Call::default();
         }
         if self.shapes.uses[request.shape as usize] < self.least_uses {
@@ -318,13 +324,11 @@ impl<'a> Emitter<'a> {
             missing => {
                 let stored = request.to != NOWHERE;
                 self.compiler.begin(operands.len() as u32);
-                self.shapes.reader.read(self.system, self.memory, roots, stored);
+                self.shapes.reader.read(self.system, self.memory, request.side, roots, stored);
                 for (number, &operand) in (0..).zip(&self.shapes.reader.operands) {
-                    let jet = matches!(
-                        self.memory.place(self.system, request.side, operand),
-                        Some(Operand::Jet(_))
-                    );
-                    self.compiler.gathered(operand, number, jet);
+                    if let Some(place) = self.memory.place(self.system, request.side, operand) {
+                        self.compiler.gathered(operand, number, place);
+                    }
                 }
                 let places = if stored {
                     self.compiler.compile_stored(self.memory, request.side, roots, operands.len() as u32 - 1)

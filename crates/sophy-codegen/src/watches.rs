@@ -1,8 +1,8 @@
 //! Watches: who decides what, and who reads it.
 
 use crate::blocks::Gather;
-use crate::memory::{Side, source_of};
-use sophy_field::{Operand, SourceIndex, StairIndex, Table, TruthIndex, WatchCode, WatchIndex, sign_bit};
+use crate::memory::{Place, Side, source_of};
+use sophy_field::{SourceIndex, StairIndex, Table, TruthIndex, WatchCode, WatchIndex, sign_bit};
 use sophy_ir::{Binary, Comparison, Leaf, Node, NodeId, System};
 use sophy_segment::Sign;
 
@@ -114,8 +114,8 @@ fn level(gather: &mut Gather<'_>, difference: NodeId) -> Option<(SourceIndex, Op
     match system.graph.node(difference) {
         Node::Binary(Binary::Subtract, a, b) => {
             match (source(a)?, gather.memory.place(system, Side::Series, b)?) {
-                (source, Operand::Scalar(at)) => Some((source, Some(at))),
-                (_, Operand::Jet(_)) => None,
+                (source, Place::Scalar(at)) => Some((source, Some(at))),
+                _ => None,
             }
         }
         _ => source(difference).map(|source| (source, None)),

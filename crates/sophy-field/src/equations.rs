@@ -1,6 +1,6 @@
 use crate::{
-    AutomatonIndex, Call, Enclose, Jet, Kernels, LocationIndex, Operand, Program, Run, StateIndex, Table,
-    WatchIndex,
+    AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Operand, Program, Run,
+    StateIndex, Table, WatchIndex,
 };
 use sophy_segment::Interval;
 use std::ops::Range;
@@ -9,9 +9,7 @@ use std::sync::OnceLock;
 /// The callable equations of a flat system: immutable, shared by all runs of a campaign.
 ///
 /// **Sources** are what right-hand sides read: the states, then the inputs, then time (the vector z of the
-/// thesis, §3.2.2). Memory holds, for each source, a *quantised* jet (q, read by rates) and a *series* jet (x,
-/// read by guards, resets and outputs), then scalars, columns and temporaries. A *column* is its length and then
-/// its numbers: the knots of a table, or a coefficient of its pieces.
+/// thesis, §3.2.2). Memory holds a record of each; programs read it at the present time ([`Layout`]).
 ///
 /// **Blocks** are rows evaluated together with shared subexpressions. [`Equations::influence`] lists, for
 /// each source, the blocks to evaluate when its quantised value changes; an entry of the list names the
@@ -82,57 +80,12 @@ impl SourceIndex {
     }
 }
 
-/// Where things stand in memory; all offsets count numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Layout {
-    /// Coefficients per jet.
-    pub width: u32,
-    /// Number of states.
-    pub states: u32,
-    /// Number of inputs.
-    pub inputs: u32,
-    /// First quantised jet.
-    pub quantised: u32,
-    /// First series jet.
-    pub series: u32,
-    /// First truth (scalar 1 or 0), then the stairs.
-    pub truths: u32,
-    /// First stair.
-    pub stairs: u32,
-    /// Length of memory.
-    pub length: u32,
-}
-
-impl Layout {
-    /// Number of sources.
-    pub fn sources(self) -> usize {
-        (self.states + self.inputs + 1) as usize
-    }
-
-    /// Offset of a source's quantised jet.
-    #[inline]
-    pub fn quantised_of(self, source: SourceIndex) -> usize {
-        (self.quantised + source.0 * self.width) as usize
-    }
-
-    /// Offset of a source's series jet.
-    #[inline]
-    pub fn series_of(self, source: SourceIndex) -> usize {
-        (self.series + source.0 * self.width) as usize
-    }
-
-    /// The source that is time.
-    pub fn time(self) -> SourceIndex {
-        SourceIndex(self.states + self.inputs)
-    }
-}
-
 /// Rows that are evaluated together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Block {
     /// What computes its rows.
     pub call: Call,
-    /// In [`Equations::sources`]: whose quantised jets must be current.
+    /// In [`Equations::sources`]: whose quantised trajectories it reads.
     pub sources: Range<u32>,
     /// In [`Equations::rows`]: what it computes.
     pub rows: Range<u32>,
@@ -236,12 +189,12 @@ impl StairCode {
     }
 }
 
-/// A value of series jets at an instant: prerequisites (algebraic variables, by location), then a program.
+/// A value of integrated trajectories at an instant: prerequisites (algebraic variables, by location), then a program.
 #[derive(Clone, Debug)]
 pub struct Formula {
     /// What computes it.
     pub call: Call,
-    /// In [`Equations::sources`]: whose series jets must be current, prerequisites included.
+    /// In [`Equations::sources`]: whose integrated trajectories it reads, prerequisites included.
     pub sources: Range<u32>,
     /// In [`Equations::entries`]: the calls to run first.
     pub before: Range<u32>,
@@ -270,12 +223,12 @@ impl Equations {
         &self.operands[call.operands.start as usize..call.operands.end as usize]
     }
 
-    fn execute_enclosed(&self, call: &Call, memory: &mut [Interval], orders: usize) {
+    fn execute_enclosed(&self, call: &Call, memory: &mut Enclosing<'_>, orders: usize) {
         (self.enclose)(&self.programs[call.program as usize], self.operands(call), memory, orders);
     }
 
-    /// Runs the program of a formula on `memory`, whose series jets must be current, and gives its first
-    /// `orders` coefficients. `locations` are the present locations.
+    /// Runs the program of a formula on `memory`, in which the present time and the records of its sources must stand,
+    /// and gives its first `orders` coefficients. `locations` are the present locations.
     pub fn formula(
         &self,
         formula: &Formula,
@@ -290,12 +243,12 @@ impl Equations {
         self.result(formula.result, memory, orders)
     }
 
-    /// The same over intervals: enclosures of value, derivative and half the second derivative.
+    /// The same over a stretch of time: enclosures of value, derivative and half the second derivative.
     pub fn formula_enclosed(
         &self,
         formula: &Formula,
         locations: &[LocationIndex],
-        memory: &mut [Interval],
+        memory: &mut Enclosing<'_>,
     ) -> [Interval; 3] {
         let orders = (self.layout.width as usize).min(3);
         for entry in self.entries(&formula.before) {
@@ -304,11 +257,11 @@ impl Equations {
         self.execute_enclosed(&formula.call, memory, orders);
         let zero = Interval::point(0.0);
         match formula.result {
-            Operand::Scalar(offset) => [memory[offset as usize], zero, zero],
+            Operand::Scalar(offset) => [memory.get(offset), zero, zero],
             Operand::Jet(offset) => {
                 std::array::from_fn(
                     |k| {
-                        if k < orders { memory[offset as usize + k] } else { Interval::ENTIRE }
+                        if k < orders { memory.get(offset + k as u32) } else { Interval::ENTIRE }
                     },
                 )
             }

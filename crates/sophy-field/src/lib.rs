@@ -11,20 +11,26 @@ mod engine;
 mod equations;
 mod index;
 mod journal;
+mod layout;
 mod logic;
+mod memory;
 mod program;
 mod table;
 
 pub use agenda::Agenda;
 pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
 pub use equations::{
-    AutomatonCode, Block, Entry, Equations, Formula, Layout, RowResult, SourceIndex, StairCode, WatchCode,
+    AutomatonCode, Block, Entry, Equations, Formula, RowResult, SourceIndex, StairCode, WatchCode,
 };
 pub use index::{
     AlgebraicIndex, AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, OutputIndex,
     ParameterIndex, StairIndex, StateIndex, TransitionIndex, TruthIndex, WatchIndex,
 };
 pub use journal::{Journal, Record};
+pub use layout::{Layout, NOW, RecordLayout};
 pub use logic::{EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
-pub use program::{Call, Code, Enclose, Instruction, Jet, Kernel, Kernels, Operand, Program, Reads, Run};
+pub use memory::Memory;
+pub use program::{
+    Call, Code, Enclose, Enclosing, Instruction, Jet, Kernel, Kernels, Operand, Program, Reads, Run,
+};
 pub use table::Table;

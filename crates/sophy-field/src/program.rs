@@ -84,6 +84,10 @@ pub enum Code {
     Jump,
     /// Copies jet `a` to the operand of number `to`.
     Store,
+    /// The jet, at the present time, of the trajectory at `a`: `b` coefficients, then their start.
+    Follow,
+    /// The same of the operand of number `a`.
+    FollowOperand,
 }
 
 /// What an instruction reads at one of its operands.
@@ -114,7 +118,7 @@ impl Code {
             Code::SubSJ | Code::DivSJ | Code::PowSJ => [Scalar, Jet],
             Code::Less | Code::LessEqual | Code::Equal | Code::And | Code::Or => [Scalar, Scalar],
             Code::Not | Code::Spread | Code::Locate | Code::Lookup | Code::JumpIfZero => [Scalar, Nothing],
-            Code::Jump => [Nothing, Nothing],
+            Code::Jump | Code::Follow | Code::FollowOperand => [Nothing, Nothing],
             _ => [Jet, Nothing],
         }
     }
@@ -141,7 +145,7 @@ impl Code {
 ///
 /// An *absolute* one names in its instructions the memory it reads. A *shared* one stands for all equations of
 /// one shape, a thousand copies of a component say: each use brings its own table of operands (offsets of
-/// jets and scalars), which are gathered into temporaries before the first instruction.
+/// trajectories, jets and scalars), which are gathered into temporaries before the first instruction.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Program {
     /// Executed from the first on; jumps lead forwards only.
@@ -170,8 +174,32 @@ pub type Jet = [f64; 4];
 /// Both back ends fill the same pointer, so that nothing above is generic over them.
 pub type Run = fn(program: &Program, operands: &[u32], memory: &mut [f64], orders: usize);
 
-/// The same over intervals: every coefficient becomes an enclosure.
-pub type Enclose = fn(program: &Program, operands: &[u32], memory: &mut [Interval], orders: usize);
+/// The same over a stretch of time: every coefficient becomes an enclosure.
+pub type Enclose = fn(program: &Program, operands: &[u32], memory: &mut Enclosing<'_>, orders: usize);
+
+/// Memory over a stretch of time: what programs write is enclosed, the records of sources are numbers.
+#[derive(Debug)]
+pub struct Enclosing<'a> {
+    /// Memory; only its records are read.
+    pub numbers: &'a [f64],
+    /// What stands behind the records.
+    pub enclosed: &'a mut [Interval],
+    /// Where that begins ([`Layout::rest`](crate::Layout::rest)).
+    pub rest: u32,
+    /// The stretch of time, s.
+    pub now: Interval,
+}
+
+impl Enclosing<'_> {
+    /// What stands at an offset.
+    #[inline]
+    pub fn get(&self, at: u32) -> Interval {
+        match at.checked_sub(self.rest) {
+            Some(at) => self.enclosed[at as usize],
+            None => Interval::point(self.numbers[at as usize]),
+        }
+    }
+}
 
 /// Native code of programs: for each number of coefficients, one function per program that has it.
 ///

@@ -4,7 +4,7 @@ use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
     AutomatonIndex, Changes, Engine, Equations, EventIndex, Formula, Guard, Journal, LocationIndex, Logic,
-    Record, StateIndex, TransitionIndex, TriggerCode, WatchIndex,
+    NOW, Record, StateIndex, TransitionIndex, TriggerCode, WatchIndex,
 };
 use std::collections::VecDeque;
 
@@ -378,8 +378,9 @@ fn keep_urgent<T>(kept: &mut Vec<T>, least: &mut i32, priority: i32, item: T) {
 
 /// A formula at an instant.
 fn evaluate(engine: &dyn Engine, e: &Equations, formula: &Formula, t: f64, memory: &mut [f64]) -> f64 {
+    memory[NOW] = t;
     for &source in e.sources(&formula.sources) {
-        memory[e.layout.series_of(source)] = engine.value(source, t);
+        e.layout.set_integrated(memory, source, &[engine.value(source, t)], t);
     }
     let [value, ..] = e.formula(formula, engine.locations(), memory, 1);
     value

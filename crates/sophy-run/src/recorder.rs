@@ -5,7 +5,7 @@ use crate::experiment::{Experiment, ExperimentError, matches};
 use crate::grid::Grid;
 use crate::run::Run;
 use rustc_hash::FxHashSet;
-use sophy_field::{Jet, LocationIndex, Record, SourceIndex, WatchIndex};
+use sophy_field::{Jet, LocationIndex, NOW, Record, SourceIndex, WatchIndex};
 use sophy_ir::{Quantity, System};
 use sophy_record::{Column, ColumnKind, Row, Schema, Sink, SinkError, Trajectory};
 use sophy_segment::Sign;
@@ -280,8 +280,10 @@ impl Recorder {
             Real::Source(source) => at(self.segments[source.position()], time),
             Real::Output(index) => {
                 let formula = e.selected(e.outputs[index], &self.locations);
+                self.memory[NOW] = time;
                 for &source in e.sources(&formula.sources) {
-                    self.memory[e.layout.series_of(source)] = at(self.segments[source.position()], time);
+                    let value = at(self.segments[source.position()], time);
+                    e.layout.set_integrated(&mut self.memory, source, &[value], time);
                 }
                 e.formula(formula, &self.locations, &mut self.memory, 1)[0]
             }

@@ -9,7 +9,7 @@ use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext, Variable};
 use cranelift_jit::JITModule;
 use cranelift_module::{Module, ModuleError};
 use rustc_hash::{FxHashMap, FxHashSet};
-use sophy_field::{Code, Instruction, Program};
+use sophy_field::{Code, Instruction, NOW, Program};
 
 /// What is asked of a function: coefficients of jets, and which numbers its callers read afterwards.
 pub(super) struct Wanted<'a> {
@@ -180,8 +180,7 @@ impl Writer<'_> {
         // What is needed was computed before.
         let of = |position: u32| values[position as usize].unwrap_or(self.memory);
         Ok(match *operation {
-            Operation::Input(k) if k < self.orders() => self.read(instruction.a + k),
-            Operation::Input(k) => self.read(instruction.b + k - self.orders()),
+            Operation::Input(k) => self.input(instruction, k),
             Operation::Number(value) => self.builder.ins().f64const(value),
             Operation::Add(a, b) => self.builder.ins().fadd(of(a), of(b)),
             Operation::Subtract(a, b) => self.builder.ins().fsub(of(a), of(b)),
@@ -202,6 +201,18 @@ impl Writer<'_> {
                 self.call(function.symbol().0, &[(types::F64, a), (types::F64, b)])?
             }
         })
+    }
+
+    /// A number of what an instruction reads, as its trace counts them.
+    fn input(&mut self, instruction: &Instruction, k: u32) -> Value {
+        let Instruction { code, a, b, .. } = *instruction;
+        match code {
+            Code::Follow | Code::FollowOperand if k > b => self.read(NOW as u32),
+            Code::Follow => self.read(a + k),
+            Code::FollowOperand => self.load(types::F64, self.pointers[a as usize], 8 * k),
+            _ if k < self.orders() => self.read(a + k),
+            _ => self.read(b + k - self.orders()),
+        }
     }
 
     fn call(&mut self, name: &'static str, arguments: &[(Type, Value)]) -> Lowered<Value> {

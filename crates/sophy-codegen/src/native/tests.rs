@@ -197,3 +197,30 @@ fn branches_and_operands() {
         }
     }
 }
+
+/// Trajectories of two to four coefficients, addressed and brought by a call, at several times.
+#[test]
+fn trajectories_are_followed() {
+    let at = |k: u32| TEMPORARIES + k * WIDTH as u32;
+    for (count, orders) in (2..=4).flat_map(|count| (1..=WIDTH).map(move |orders| (count, orders))) {
+        let follow = |code, to, a| Instruction { code, to, a, b: count };
+        let product = Instruction { code: Code::MulJJ, to: at(2), a: at(0), b: at(1) };
+        let instructions =
+            vec![follow(Code::FollowOperand, at(0), 0), follow(Code::Follow, at(1), 8), product];
+        let program = Program { instructions, gather: TEMPORARIES, stride: WIDTH as u32 };
+        let both = Both::new(program, 1, orders);
+        for now in [-1.0, 0.25, 3.0] {
+            let mut numbers: Vec<f64> = (0..READ).map(|k| f64::from(k * 7 % 5) - 1.5).collect();
+            numbers[0] = now;
+            let [interpreted, native] = both.run(&[16], &numbers);
+            assert_eq!(interpreted, native, "{count} coefficients, {orders} orders, at {now}");
+            let value = |first: usize| {
+                let s = now - numbers[first + count as usize];
+                (0..count as usize).map(|k| numbers[first + k] * s.powi(k as i32)).sum::<f64>()
+            };
+            let expected = value(16) * value(8);
+            let found = f64::from_bits(native[at(2) as usize]);
+            assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{found} {expected}");
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! The interpreter's arithmetic, written down instead of done: what one instruction computes, operation by
 //! operation, in the same order, so that native code has the same bits.
 
-use crate::interpreter::execute;
+use crate::interpreter::{Numbers, execute};
 use crate::scalar::Scalar;
 use sophy_field::{Code, Instruction, Program};
 use std::cell::RefCell;
@@ -14,7 +14,8 @@ pub(super) struct Traced(u32);
 /// An operation; operands are positions of earlier ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Operation {
-    /// A number of the operands: those of the first jet or scalar, then those of the second.
+    /// A number of the operands: those of the first jet or scalar, then those of the second. Of a trajectory: its
+    /// coefficients, its start, the present time.
     Input(u32),
     Number(f64),
     Add(u32, u32),
@@ -84,14 +85,25 @@ pub(super) fn trace(instruction: &Instruction, orders: usize) -> Trace {
 fn trace_jets<const N: usize>(instruction: &Instruction) -> Trace {
     TAPE.with_borrow_mut(Vec::clear);
     let n = N as u32;
-    let mut memory: Vec<Traced> = (0..2 * n).map(|k| note(Operation::Input(k))).collect();
+    let input = |k: u32| note(Operation::Input(k));
+    let (alone, mut memory): (_, Vec<Traced>) = match instruction.code {
+        Code::Follow | Code::FollowOperand => {
+            // The present time stands first.
+            let count = instruction.b;
+            let memory = std::iter::once(count + 1).chain(0..=count).map(input).collect();
+            (Instruction { code: Code::Follow, to: count + 2, a: 1, b: count }, memory)
+        }
+        code => {
+            // An exponent is no operand.
+            let b = if code == Code::IntegerPower { instruction.b } else { n };
+            (Instruction { code, to: 2 * n, a: 0, b }, (0..2 * n).map(input).collect())
+        }
+    };
     memory.extend((0..n).map(|_| Traced::of(0.0)));
-    // An exponent is no operand.
-    let b = if instruction.code == Code::IntegerPower { instruction.b } else { n };
-    let alone = Instruction { to: 2 * n, a: 0, b, ..*instruction };
-    execute::<Traced, N>(&Program { instructions: vec![alone], gather: 0, stride: 0 }, &[], &mut memory);
+    let program = Program { instructions: vec![alone], gather: 0, stride: 0 };
+    execute::<Traced, _, N>(&program, &[], &mut Numbers(&mut memory));
     let written = if instruction.code.writes_jet() { N } else { 1 };
-    let results = memory[2 * N..2 * N + written].iter().map(|traced| traced.0).collect();
+    let results = memory[alone.to as usize..][..written].iter().map(|traced| traced.0).collect();
     Trace { operations: TAPE.with_borrow_mut(std::mem::take), results }
 }
 

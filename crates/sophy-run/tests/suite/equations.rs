@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use sophy_codegen::{Compiled, Parameters, Sharing, compile_sharing};
-use sophy_field::{Formula, Jet, LocationIndex, SourceIndex, StateIndex};
+use sophy_field::{Enclosing, Formula, Jet, LocationIndex, NOW, SourceIndex, StateIndex};
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Model, Node, NodeId, System, Unary, Value, evaluate};
 use sophy_segment::Interval;
 use sophy_testkit::Build;
@@ -225,11 +225,11 @@ impl Case {
     fn memory(&self, jets: &[Jet; 4]) -> Vec<f64> {
         let e = &self.compiled.equations;
         let mut memory = e.image.clone();
+        memory[NOW] = TIME;
         for (source, jet) in jets.iter().enumerate() {
             let source = SourceIndex(source as u32);
-            for at in [e.layout.series_of(source), e.layout.quantised_of(source)] {
-                memory[at..at + WIDTH].copy_from_slice(jet);
-            }
+            e.layout.set_integrated(&mut memory, source, jet, TIME);
+            e.layout.set_quantised(&mut memory, source, jet, TIME);
         }
         let sources = &self.point.sources;
         for i in 0..self.system.truths.len() {
@@ -272,6 +272,9 @@ impl Case {
 }
 
 const HERE: [LocationIndex; 1] = [LocationIndex(0)];
+
+/// The instant at which equations are evaluated, s; trajectories begin there.
+const TIME: f64 = 0.75;
 
 /// Coefficients of a jet, for order 3.
 const WIDTH: usize = 4;
@@ -326,7 +329,8 @@ proptest! {
         motion in motion(),
     ) {
         let case = case(&steps, point, false);
-        // Not through `jets`, which turns −0 into 0.
+        // A trajectory that is −0 may be followed to 0.
+        let point = Point { sources: point.sources.map(|x| x + 0.0), ..point };
         let jets = std::array::from_fn(|k| [point.sources[k], motion[k][0], motion[k][1], 0.0]);
         for (formula, node) in case.formulas() {
             let expected = case.value(node, &point.sources);
@@ -432,19 +436,15 @@ proptest! {
     ) {
         let case = case(&steps, point, true);
         let e = &case.compiled.equations;
-        let span = Interval::new(0.0, width);
+        let numbers = case.memory(&jets(&point, &motion, 0.0));
+        let rest = e.layout.rest;
         let mut enclosed: Vec<Interval> =
-            case.memory(&jets(&point, &motion, 0.0)).into_iter().map(Interval::point).collect();
-        for (k, [c1, c2]) in motion.into_iter().enumerate() {
-            let [c0, c1, c2] = [point.sources[k], c1, c2].map(Interval::point);
-            let slope = c1 + Interval::point(2.0) * c2 * span;
-            let value = c0 + span * (c1 + c2 * span);
-            let at = e.layout.series_of(SourceIndex(k as u32));
-            enclosed[at..at + 3].copy_from_slice(&[value, slope, c2]);
-        }
+            numbers[rest as usize..].iter().copied().map(Interval::point).collect();
+        let now = Interval::new(TIME, TIME + width);
         let rates = e.rates.iter().map(|rate| e.selected(*rate, &HERE));
         for formula in rates.chain(e.watches.iter().map(|watch| &watch.formula)) {
-            let enclosure = e.formula_enclosed(formula, &HERE, &mut enclosed.clone());
+            let mut memory = Enclosing { numbers: &numbers, enclosed: &mut enclosed, rest, now };
+            let enclosure = e.formula_enclosed(formula, &HERE, &mut memory);
             for &part in &inside {
                 let mut memory = case.memory(&jets(&point, &motion, part * width));
                 let c = e.formula(formula, &HERE, &mut memory, 3);

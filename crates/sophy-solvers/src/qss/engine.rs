@@ -1,31 +1,28 @@
-use super::record::Record;
+use super::record::{Place, Record, RecordMut};
 use super::settings::Settings;
 use super::watches::WatchRecord;
 use sophy_field::{
     Agenda, AutomatonIndex, Block, Changes, Engine, Entry, Equations, Fault, Jet, Journal, LocationIndex,
-    RowResult, SourceIndex, Start, StateIndex, Statistics, Stop, WatchIndex,
+    Memory, NOW, RowResult, SourceIndex, Start, StateIndex, Statistics, Stop, WatchIndex,
 };
 use sophy_segment::{Interval, Sign, cubic_leaves};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// QSS1 and LIQSS1.
-pub type Qss1 = Qss<1, 2, 3>;
+pub type Qss1 = Qss<1>;
 /// QSS2 and LIQSS2.
-pub type Qss2 = Qss<2, 2, 3>;
+pub type Qss2 = Qss<2>;
 /// QSS3 and LIQSS3.
-pub type Qss3 = Qss<3, 3, 4>;
+pub type Qss3 = Qss<3>;
 
-/// The quantised-state engine of order `ORDER`, with room for `Q` coefficients of quantised and `X` of integrated
-/// trajectories; which quantisation is a setting.
+/// The quantised-state engine of order `ORDER`; which quantisation is a setting.
 ///
 /// Equations must have been compiled for the same order. Slots of the agenda: the states (change of q, or
 /// evaluation of a rate that bends), then the watches.
 #[derive(Clone, Debug)]
-pub struct Qss<const ORDER: usize, const Q: usize, const X: usize> {
+pub struct Qss<const ORDER: usize> {
     pub(super) settings: Settings,
-    /// States, inputs, time.
-    pub(super) records: Vec<Record<Q, X>>,
     /// How the rates bend.
     bends: Vec<Bend>,
     /// The state whose rate is being evaluated only because it bends; `usize::MAX` if none.
@@ -37,10 +34,12 @@ pub struct Qss<const ORDER: usize, const Q: usize, const X: usize> {
     pub(super) watches: Vec<WatchRecord>,
     pub(super) locations: Vec<LocationIndex>,
     pub(super) agenda: Agenda,
-    /// Memory of the programs.
-    pub(super) memory: Vec<f64>,
-    /// The same for enclosures.
+    /// Memory of the programs, with the records of states, inputs and time.
+    pub(super) memory: Memory,
+    /// What stands behind the records, enclosed.
     pub(super) enclosed: Vec<Interval>,
+    /// What a record held of q; empty in between.
+    pub(super) kept: Vec<([f64; 3], f64)>,
     /// Watches to look at again before time goes on; while they are settled, the next of them in order.
     pub(super) dirty: Vec<WatchIndex>,
     pub(super) settling: BinaryHeap<Reverse<WatchIndex>>,
@@ -81,14 +80,14 @@ pub(super) const MOST_REPEATS: u32 = 100;
 /// So many enclosures count as a step of the budget.
 const ENCLOSURES_PER_STEP: u64 = 4;
 
-impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
+impl<const ORDER: usize> Qss<ORDER> {
     /// An engine that has not been started.
     pub fn new(equations: &Equations, settings: Settings) -> Self {
         let layout = equations.layout;
-        let (states, sources, watches) = (layout.states as usize, layout.sources(), equations.watches.len());
+        let (states, watches) = (layout.states as usize, equations.watches.len());
+        let rest = &equations.image[layout.rest as usize..];
         Qss {
             settings,
-            records: vec![Record::line(0.0, 0.0, 0.0); sources],
             bends: vec![STRAIGHT; states],
             refreshed: usize::MAX,
             still: 0.0,
@@ -96,8 +95,9 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
             watches: vec![WatchRecord::default(); watches],
             locations: vec![LocationIndex(0); equations.automata.len()],
             agenda: Agenda::new(states + watches),
-            memory: equations.image.clone(),
-            enclosed: equations.image.iter().map(|&value| Interval::point(value)).collect(),
+            memory: Memory::from(equations.image.as_slice()),
+            enclosed: rest.iter().map(|&value| Interval::point(value)).collect(),
+            kept: Vec::new(),
             dirty: Vec::new(),
             settling: BinaryHeap::new(),
             changed: Vec::new(),
@@ -110,26 +110,37 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         }
     }
 
+    /// The record of a source.
+    #[inline]
+    pub(super) fn record(&self, source: usize) -> Record<'_, ORDER> {
+        let stride = Place::<ORDER>::STRIDE;
+        Record(&self.memory[(source + 1) * stride..][..stride])
+    }
+
+    #[inline]
+    pub(super) fn record_mut(&mut self, source: usize) -> RecordMut<'_, ORDER> {
+        let stride = Place::<ORDER>::STRIDE;
+        RecordMut(&mut self.memory[(source + 1) * stride..][..stride])
+    }
+
     /// A state's quantised trajectory has come to the edge of its band (algorithm 3.1).
     #[inline]
     fn step(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Fault> {
-        self.count_repeats(i, self.records[i].tq, t)?;
+        let record = self.record(i);
+        let (before, x) = (record.tq(), record.x_from(t));
+        self.count_repeats(i, before, t)?;
         // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
-        let record = &self.records[i];
-        let jet = record.x_from(t);
-        let x = jet[0];
-        let mut q = [0.0; Q];
-        q[..ORDER].copy_from_slice(&jet[..ORDER]);
-        let quantum = self.settings.quanta[i].at(x);
+        let mut q = [x[0], if ORDER > 1 { x[1] } else { 0.0 }, if ORDER > 2 { x[2] } else { 0.0 }];
+        let quantum = self.settings.quanta[i].at(x[0]);
         if self.settings.implicit {
             q = self.quantise_ahead(e, i, t, quantum).unwrap_or(q);
         }
-        let record = &mut self.records[i];
-        record.q = q;
-        record.tq = t;
         // Implicit quantisation begins at the edge of the band and moves inward, but for rounding.
-        let slack = if self.settings.implicit { 1e-9 * quantum + 4.0 * f64::EPSILON * x.abs() } else { 0.0 };
-        record.quantum = quantum + slack;
+        let slack =
+            if self.settings.implicit { 1e-9 * quantum + 4.0 * f64::EPSILON * x[0].abs() } else { 0.0 };
+        let mut record = self.record_mut(i);
+        record.set_q(q, t);
+        record.set_quantum(quantum + slack);
         self.statistics.steps += 1;
         if journal.wanted {
             journal.push(sophy_field::Record::Step { time: t, state: StateIndex::new(i) });
@@ -184,14 +195,10 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         self.evaluate(e, e.block(entry, &self.locations), t, journal)
     }
 
-    /// Brings the quantised jets that a block reads to `t` and runs its program.
+    /// Runs the program of a block at `t`.
     #[inline]
-    fn run_block(&mut self, e: &Equations, block: &Block, t: f64, orders: usize) {
-        for &source in e.sources(&block.sources) {
-            let record = &self.records[source.position()];
-            let at = e.layout.quantised_of(source);
-            self.memory[at..at + Q].copy_from_slice(&record.q_from(t));
-        }
+    pub(super) fn run_block(&mut self, e: &Equations, block: &Block, t: f64, orders: usize) {
+        self.memory[NOW] = t;
         e.execute(&block.call, &mut self.memory, orders);
     }
 
@@ -199,14 +206,14 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
     /// far as they are known at all.
     fn still_for(&self, e: &Equations, block: &Block) -> f64 {
         let still = |source: &SourceIndex| {
-            let Record { q, quantum, .. } = self.records[source.position()];
-            let rest = q[1..].iter().all(|&c| c == 0.0);
-            match (rest, quantum.is_finite()) {
+            let record = self.record(source.position());
+            let ([_, q1, q2], quantum) = (record.q(), record.quantum());
+            match (q1 == 0.0 && q2 == 0.0, quantum.is_finite()) {
                 (true, _) => f64::INFINITY,
                 // Inputs and time have no quantum.
                 (false, false) => 0.0,
-                (false, true) if Q == 2 => quantum / q[1].abs(),
-                (false, true) => cubic_leaves([0.0, q[1], q[Q - 1], 0.0], quantum),
+                (false, true) if q2 == 0.0 => quantum / q1.abs(),
+                (false, true) => cubic_leaves([0.0, q1, q2, 0.0], quantum),
             }
         };
         e.sources(&block.sources).iter().map(still).fold(f64::INFINITY, f64::min)
@@ -224,24 +231,17 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
     ) -> Result<(), Fault> {
         let [f, f1, f2, f3] = rate;
         let i = row.state.position();
-        let record = &mut self.records[i];
-        let x = record.x_at(t);
+        let x = self.record(i).x_at(t);
         // What does not count for this order may be anything.
         let counts = [f, if ORDER > 1 { f1 } else { 0.0 }, if ORDER > 2 { f2 } else { 0.0 }];
         if !(x.is_finite() && counts.iter().all(|f| f.is_finite())) {
             return Err(not_finite(row.state, t, x, &counts));
         }
-        record.x[0] = x;
-        record.x[1] = f;
-        if ORDER > 1 {
-            record.x[2] = 0.5 * f1;
-        }
-        if ORDER > 2 {
-            record.x[3] = f2 / 3.0;
-        }
-        record.tx = t;
+        let jet = [x, f, if ORDER > 1 { 0.5 * f1 } else { 0.0 }, if ORDER > 2 { f2 / 3.0 } else { 0.0 }];
+        self.record_mut(i).set_x(jet, t);
         self.statistics.rates += 1;
         if row.bends {
+            let quantum = self.record(i).quantum();
             let bend = &mut self.bends[i];
             bend.bends = true;
             // Evaluated only because it bends it coasts on; anything else ends the coasting.
@@ -253,15 +253,13 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
                 2 => f2 / 3.0,
                 _ => f3 / 4.0,
             };
-            bend.room = self.records[i].quantum / left_out.abs();
+            bend.room = quantum / left_out.abs();
             bend.trust = self.settings.trust.max(self.still);
         } else {
             self.bends[i] = STRAIGHT;
         }
         if journal.wanted {
-            let mut coefficients = Jet::default();
-            coefficients[..X].copy_from_slice(&self.records[i].x);
-            journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients });
+            journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients: jet });
         }
         self.schedule(i, t);
         for &watch in e.watches_of_source.row(i) {
@@ -273,10 +271,10 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
     /// ta: when a state next needs attention (algorithm 3.1, eq. 3.6), or its rate because it bends.
     #[inline]
     fn schedule(&mut self, i: usize, t: f64) {
-        let mut next = t + self.records[i].band_delay(t);
+        let record = self.record(i);
+        let (mut next, evaluated) = (t + record.band_delay(t), record.tx());
         let bend = self.bends[i];
         if bend.bends {
-            let evaluated = self.records[i].tx;
             let trusted = evaluated + self.trusted_for(bend, evaluated, next - evaluated);
             self.bends[i].due = trusted < next;
             next = next.min(trusted);
@@ -328,7 +326,7 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         if !self.bends[i].due {
             return self.step(e, i, t, journal);
         }
-        self.count_repeats(i, self.records[i].tx, t)?;
+        self.count_repeats(i, self.record(i).tx(), t)?;
         self.statistics.refreshes += 1;
         self.refreshed = i;
         for &entry in e.entries(&e.own[i]) {
@@ -396,19 +394,20 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
                 }
             }
         }
-        for (i, slope) in self.slopes.drain(..) {
-            self.records[i].q[known] = slope / known as f64;
+        let mut slopes = std::mem::take(&mut self.slopes);
+        for (i, slope) in slopes.drain(..) {
+            self.record_mut(i).0[Place::<ORDER>::Q + known] = slope / known as f64;
         }
+        self.slopes = slopes;
     }
 
     /// q of a state starts on x.
     fn synchronise(&mut self, i: usize, t: f64) {
-        let record = &mut self.records[i];
-        let x = record.x_at(t);
-        record.q = [0.0; Q];
-        record.q[0] = x;
-        record.tq = t;
-        record.quantum = self.settings.quanta[i].at(x);
+        let x = self.record(i).x_at(t);
+        let quantum = self.settings.quanta[i].at(x);
+        let mut record = self.record_mut(i);
+        record.set_q([x, 0.0, 0.0], t);
+        record.set_quantum(quantum);
         self.repeats[i] = 0;
     }
 
@@ -416,16 +415,13 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         if !value.is_finite() {
             return Err(Fault::StateNotFinite { state, time: t, value });
         }
-        let record = &mut self.records[state.position()];
-        record.x = [0.0; X];
-        record.x[0] = value;
-        record.tx = t;
+        self.record_mut(state.position()).set_x([value, 0.0, 0.0, 0.0], t);
         Ok(())
     }
 
     fn set_input(&mut self, e: &Equations, input: usize, line: [f64; 2], t: f64) -> SourceIndex {
         let source = SourceIndex(e.layout.states + input as u32);
-        self.records[source.position()] = Record::line(line[0], line[1], t);
+        self.record_mut(source.position()).set_line(line[0], line[1], t);
         source
     }
 
@@ -462,7 +458,7 @@ fn not_finite(state: StateIndex, time: f64, x: f64, rate: &[f64]) -> Fault {
     }
 }
 
-impl<const ORDER: usize, const Q: usize, const X: usize> Engine for Qss<ORDER, Q, X> {
+impl<const ORDER: usize> Engine for Qss<ORDER> {
     fn start(&mut self, e: &Equations, start: &Start<'_>, journal: &mut Journal) -> Result<(), Fault> {
         let t = start.time;
         for (i, &value) in start.states.iter().enumerate() {
@@ -472,7 +468,7 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Engine for Qss<ORDER, Q
         for (input, &line) in start.inputs.iter().enumerate() {
             self.set_input(e, input, line, t);
         }
-        self.records[e.layout.time().position()] = Record::line(0.0, 1.0, 0.0);
+        self.record_mut(e.layout.time().position()).set_line(0.0, 1.0, 0.0);
         self.locations.copy_from_slice(start.locations);
         for (code, location) in e.automata.iter().zip(start.locations) {
             for &watch in &code.armed[location.position()] {
@@ -561,15 +557,15 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Engine for Qss<ORDER, Q
     }
 
     fn value(&self, source: SourceIndex, time: f64) -> f64 {
-        self.records[source.position()].x_at(time)
+        self.record(source.position()).x_at(time)
     }
 
     fn jet(&self, source: SourceIndex, time: f64) -> Jet {
-        self.records[source.position()].jet_at(time)
+        self.record(source.position()).x_from(time)
     }
 
     fn quantised(&self, state: StateIndex, time: f64) -> f64 {
-        self.records[state.position()].q_at(time)
+        self.record(state.position()).q_at(time)
     }
 
     fn sign(&self, watch: WatchIndex) -> Sign {
@@ -586,15 +582,15 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Engine for Qss<ORDER, Q
 
     fn jacobian(&self, e: &Equations, time: f64) -> Vec<(StateIndex, SourceIndex, f64)> {
         let mut memory = self.memory.clone();
+        memory[NOW] = time;
         let mut entries = Vec::new();
         for (i, rate) in e.rates.iter().enumerate() {
             let formula = e.selected(*rate, &self.locations);
             let sources = e.sources(&formula.sources);
             for &source in sources {
                 for &other in sources {
-                    let at = e.layout.series_of(other);
-                    memory[at] = self.value(other, time);
-                    memory[at + 1] = if other == source { 1.0 } else { 0.0 };
+                    let slope = if other == source { 1.0 } else { 0.0 };
+                    e.layout.set_integrated(&mut memory, other, &[self.value(other, time), slope], time);
                 }
                 let [_, slope, ..] = e.formula(formula, &self.locations, &mut memory, 2);
                 entries.push((StateIndex::new(i), source, slope));

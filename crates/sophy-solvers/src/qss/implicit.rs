@@ -112,7 +112,7 @@ fn positive_root([c1, c2, c3]: [f64; 3], g: f64) -> f64 {
 /// From above, Newton's method takes fewer than ten.
 const MOST_STEPS: u32 = 32;
 
-impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
+impl<const ORDER: usize> Qss<ORDER> {
     /// Value and slope of the next quantised trajectory of a state whose own rate pulls it back; `None` if it does not.
     pub(super) fn quantise_ahead(
         &mut self,
@@ -120,17 +120,15 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         i: usize,
         t: f64,
         quantum: f64,
-    ) -> Option<[f64; Q]> {
+    ) -> Option<[f64; 3]> {
         let a = self.own_slope(e, i, t);
-        let record = &self.records[i];
+        let record = self.record(i);
         let (x, q) = (record.x_from(t), record.q_from(t));
         let mut u = [0.0; 3];
         for k in 0..ORDER {
             u[k] = (k + 1) as f64 * x[k + 1] - a * q[k];
         }
-        let ahead = Linear { a, u }.quantise::<ORDER>(x[0], quantum);
-        let mut q = [0.0; Q];
-        q.copy_from_slice(&ahead[..Q]);
+        let q = Linear { a, u }.quantise::<ORDER>(x[0], quantum);
         (a <= 0.0 && q.iter().all(|q| q.is_finite())).then_some(q)
     }
 
@@ -139,12 +137,20 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         let mut slope = 0.0;
         for &entry in e.entries(&e.own[i]) {
             let block = e.block(entry, &self.locations);
+            // The others stand still.
             for &source in e.sources(&block.sources) {
-                let at = e.layout.quantised_of(source);
-                self.memory[at] = self.records[source.position()].q_at(t);
-                self.memory[at + 1] = if source.position() == i { 1.0 } else { 0.0 };
+                let record = self.record(source.position());
+                let (q, value) = ((record.q(), record.tq()), record.q_at(t));
+                self.kept.push(q);
+                let slope = if source.position() == i { 1.0 } else { 0.0 };
+                self.record_mut(source.position()).set_q([value, slope, 0.0], t);
             }
-            e.execute(&block.call, &mut self.memory, 2);
+            self.run_block(e, block, t, 2);
+            let mut kept = std::mem::take(&mut self.kept);
+            for (&source, (q, start)) in e.sources(&block.sources).iter().zip(kept.drain(..)) {
+                self.record_mut(source.position()).set_q(q, start);
+            }
+            self.kept = kept;
             for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
                 if row.state.position() == i {
                     slope = e.result(row.result, &self.memory, 2)[1];

@@ -1,160 +1,169 @@
-use sophy_field::Jet;
-use sophy_segment::{Interval, cubic_leaves};
+//! A record of memory as this engine keeps it: x, its start, q, its start, and the quantum.
 
-/// A source (state, input or time): one cache line up to the second order, two for the third.
-///
-/// x(t) = Σ xₖ·sᵏ, s = t − tx; q(t) = Σ qₖ·sᵏ, s = t − tq. Inputs and time have q = x.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(64))]
-pub(super) struct Record<const Q: usize, const X: usize> {
-    /// x, ẋ, ½ẍ … at `tx`.
-    pub(super) x: [f64; X],
+use sophy_field::{Jet, RecordLayout};
+use sophy_segment::cubic_leaves;
+
+/// What stands where in the records of an order.
+pub(super) struct Place<const ORDER: usize>;
+
+impl<const ORDER: usize> Place<ORDER> {
+    const LAYOUT: RecordLayout = RecordLayout::of_order(ORDER as u32);
+    /// Numbers per record.
+    pub(super) const STRIDE: usize = Self::LAYOUT.stride as usize;
+    /// Coefficients of x, which come first.
+    pub(super) const X: usize = Self::LAYOUT.integrated as usize;
     /// Start of x, s.
-    pub(super) tx: f64,
-    /// q, q̇ … at `tq`.
-    pub(super) q: [f64; Q],
+    pub(super) const TX: usize = Self::X;
+    /// First coefficient of q.
+    pub(super) const Q: usize = Self::LAYOUT.quantised_at() as usize;
+    /// Coefficients of q.
+    pub(super) const QS: usize = Self::LAYOUT.quantised as usize;
     /// Start of q, s.
-    pub(super) tq: f64,
-    /// Present quantum ΔQ.
-    pub(super) quantum: f64,
+    pub(super) const TQ: usize = Self::Q + Self::QS;
+    /// Present quantum ΔQ; infinite for inputs and time.
+    pub(super) const QUANTUM: usize = Self::LAYOUT.own_at() as usize;
 }
 
-impl<const Q: usize, const X: usize> Record<Q, X> {
-    /// A source that follows `value + slope·(t − time)` exactly.
-    pub(super) fn line(value: f64, slope: f64, time: f64) -> Self {
-        let (mut x, mut q) = ([0.0; X], [0.0; Q]);
-        (x[0], x[1], q[0], q[1]) = (value, slope, value, slope);
-        Record { x, tx: time, q, tq: time, quantum: f64::INFINITY }
+/// A source's record, to be read.
+///
+/// x(t) = Σ xₖ·sᵏ, s = t − tx; q(t) = Σ qₖ·sᵏ, s = t − tq. Inputs and time have q = x.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Record<'a, const ORDER: usize>(pub(super) &'a [f64]);
+
+impl<const ORDER: usize> Record<'_, ORDER> {
+    #[inline]
+    pub(super) fn quantum(self) -> f64 {
+        self.0[Place::<ORDER>::QUANTUM]
+    }
+
+    /// Start of x, s.
+    #[inline]
+    pub(super) fn tx(self) -> f64 {
+        self.0[Place::<ORDER>::TX]
+    }
+
+    /// Start of q, s.
+    #[inline]
+    pub(super) fn tq(self) -> f64 {
+        self.0[Place::<ORDER>::TQ]
+    }
+
+    /// Coefficients of q at its start.
+    #[inline]
+    pub(super) fn q(self) -> [f64; 3] {
+        let q = &self.0[Place::<ORDER>::Q..];
+        [q[0], q[1], if Place::<ORDER>::QS > 2 { q[2] } else { 0.0 }]
+    }
+
+    /// Coefficients of x at its start.
+    #[inline]
+    pub(super) fn x(self) -> Jet {
+        [self.0[0], self.0[1], self.0[2], if Place::<ORDER>::X > 3 { self.0[3] } else { 0.0 }]
     }
 
     /// x at `time`.
     #[inline]
-    pub(super) fn x_at(&self, time: f64) -> f64 {
-        horner(&self.x, time - self.tx)
+    pub(super) fn x_at(self, time: f64) -> f64 {
+        let [x0, x1, x2, x3] = self.x();
+        let s = time - self.tx();
+        if Place::<ORDER>::X > 3 { x0 + s * (x1 + s * (x2 + s * x3)) } else { x0 + s * (x1 + s * x2) }
     }
 
     /// Taylor coefficients of x at `time`.
     #[inline]
-    pub(super) fn x_from(&self, time: f64) -> [f64; X] {
-        moved(&self.x, time - self.tx)
-    }
-
-    /// The same, as many as any order has.
-    #[inline]
-    pub(super) fn jet_at(&self, time: f64) -> Jet {
-        let mut jet = Jet::default();
-        jet[..X].copy_from_slice(&self.x_from(time));
-        jet
+    pub(super) fn x_from(self, time: f64) -> Jet {
+        let [_, x1, x2, x3] = self.x();
+        let (value, s) = (self.x_at(time), time - self.tx());
+        if Place::<ORDER>::X > 3 {
+            [value, x1 + s * (2.0 * x2 + s * (3.0 * x3)), x2 + s * (3.0 * x3), x3]
+        } else {
+            [value, x1 + 2.0 * s * x2, x2, 0.0]
+        }
     }
 
     /// q at `time`.
     #[inline]
-    pub(super) fn q_at(&self, time: f64) -> f64 {
-        horner(&self.q, time - self.tq)
+    pub(super) fn q_at(self, time: f64) -> f64 {
+        let [q0, q1, q2] = self.q();
+        let s = time - self.tq();
+        if Place::<ORDER>::QS > 2 { q0 + s * (q1 + s * q2) } else { q0 + s * q1 }
     }
 
     /// Taylor coefficients of q at `time`.
     #[inline]
-    pub(super) fn q_from(&self, time: f64) -> [f64; Q] {
-        moved(&self.q, time - self.tq)
-    }
-
-    /// Enclosures of value, slope and half the curvature of x over `times`.
-    pub(super) fn enclose(&self, times: Interval) -> [Interval; 3] {
-        let mut c = [Interval::point(0.0); 4];
-        for (c, &x) in c.iter_mut().zip(&self.x) {
-            *c = Interval::point(x);
-        }
-        let [c0, c1, c2, c3] = c;
-        let number = Interval::point;
-        let s = times - number(self.tx);
-        let curved = X > 3;
-        let curvature = if curved { c2 + number(3.0) * c3 * s } else { c2 };
-        // The mean-value form is the tighter one on short spans, the power form keeps exact points.
-        let middle = number(s.midpoint());
-        let square = s.square();
-        let slope = if curved {
-            let power = c1 + number(2.0) * c2 * s + number(3.0) * c3 * square;
-            let centred = c1
-                + middle * (number(2.0) * c2 + number(3.0) * c3 * middle)
-                + number(2.0) * curvature * (s - middle);
-            power.intersection(centred).unwrap_or(power)
-        } else {
-            c1 + number(2.0) * c2 * s
-        };
-        let highest = if curved { c2 * square + c3 * square * s } else { c2 * square };
-        let power = c0 + c1 * s + highest;
-        let inner = if curved { c2 + middle * c3 } else { c2 };
-        let centred = c0 + middle * (c1 + middle * inner) + slope * (s - middle);
-        let value = power.intersection(centred).unwrap_or(power);
-        [value, slope, curvature]
+    pub(super) fn q_from(self, time: f64) -> [f64; 3] {
+        let [_, q1, q2] = self.q();
+        let slope = if Place::<ORDER>::QS > 2 { q1 + 2.0 * (time - self.tq()) * q2 } else { q1 };
+        [self.q_at(time), slope, q2]
     }
 
     /// Time from `time` until |x − q| = ΔQ (eq. 3.6), infinite if never.
     #[inline]
-    pub(super) fn band_delay(&self, time: f64) -> f64 {
-        let (x, q) = (self.x_from(time), self.q_from(time));
-        if X > 3 {
-            let mut d = Jet::default();
-            d[..X].copy_from_slice(&x);
-            for (d, q) in d.iter_mut().zip(q) {
-                *d -= q;
-            }
-            return cubic_leaves(d, self.quantum);
+    pub(super) fn band_delay(self, time: f64) -> f64 {
+        let ([x0, x1, x2, x3], [q0, q1, q2]) = (self.x_from(time), self.q_from(time));
+        if Place::<ORDER>::X > 3 {
+            return cubic_leaves([x0 - q0, x1 - q1, x2 - q2, x3], self.quantum());
         }
-        self.parabola_leaves(x[0] - q[0], x[1] - q[1], x[2])
+        parabola_leaves([x0 - q0, x1 - q1, x2], self.quantum())
     }
+}
 
-    /// Delay until the parabola x − q leaves the band.
-    ///
-    /// Only the edge that it can reach first is solved for, in the form of the root that does not cancel.
+/// The same, to be written.
+#[derive(Debug)]
+pub(super) struct RecordMut<'a, const ORDER: usize>(pub(super) &'a mut [f64]);
+
+impl<const ORDER: usize> RecordMut<'_, ORDER> {
+    /// x follows these coefficients from `time` on.
     #[inline]
-    fn parabola_leaves(&self, d0: f64, d1: f64, d2: f64) -> f64 {
-        // Mirrored so that the parabola opens upwards and ends at the upper edge.
-        let side = if d2 < 0.0 || (d2 == 0.0 && d1 < 0.0) { -1.0 } else { 1.0 };
-        let (d0, d1, d2) = (side * d0, side * d1, side * d2);
-        let (up, down) = (self.quantum - d0, self.quantum + d0);
-        if up <= 0.0 || down <= 0.0 {
-            return 0.0;
-        }
-        if d2 == 0.0 {
-            return if d1 > 0.0 { up / d1 } else { f64::INFINITY };
-        }
-        // What is chosen rather than branched to costs nothing: signs of curvatures cannot be foreseen.
-        let square = d1 * d1;
-        let low = square - 4.0 * d2 * down;
-        let falls = d1 < 0.0;
-        let leaves_below = falls && low >= 0.0;
-        let root = (if leaves_below { low } else { square + 4.0 * d2 * up }).sqrt() + d1.abs();
-        let edge = if leaves_below { down } else { up };
-        let (above, below) = if falls && !leaves_below { (root, 2.0 * d2) } else { (2.0 * edge, root) };
-        above / below
+    pub(super) fn set_x(&mut self, jet: Jet, time: f64) {
+        self.0[..Place::<ORDER>::X].copy_from_slice(&jet[..Place::<ORDER>::X]);
+        self.0[Place::<ORDER>::TX] = time;
+    }
+
+    /// q follows these coefficients from `time` on.
+    #[inline]
+    pub(super) fn set_q(&mut self, q: [f64; 3], time: f64) {
+        self.0[Place::<ORDER>::Q..Place::<ORDER>::TQ].copy_from_slice(&q[..Place::<ORDER>::QS]);
+        self.0[Place::<ORDER>::TQ] = time;
+    }
+
+    #[inline]
+    pub(super) fn set_quantum(&mut self, quantum: f64) {
+        self.0[Place::<ORDER>::QUANTUM] = quantum;
+    }
+
+    /// A source that follows `value + slope·(t − time)` exactly.
+    pub(super) fn set_line(&mut self, value: f64, slope: f64, time: f64) {
+        self.set_x([value, slope, 0.0, 0.0], time);
+        self.set_q([value, slope, 0.0], time);
+        self.set_quantum(f64::INFINITY);
     }
 }
 
-/// Σ cₖ·sᵏ.
+/// Delay until |d₀ + d₁s + d₂s²| reaches the quantum.
+///
+/// Only the edge that it can reach first is solved for, in the form of the root that does not cancel.
 #[inline]
-fn horner<const N: usize>(c: &[f64; N], s: f64) -> f64 {
-    let mut sum = c[N - 1];
-    for k in (0..N - 1).rev() {
-        sum = c[k] + s * sum;
+fn parabola_leaves([d0, d1, d2]: [f64; 3], quantum: f64) -> f64 {
+    // Mirrored so that the parabola opens upwards and ends at the upper edge.
+    let side = if d2 < 0.0 || (d2 == 0.0 && d1 < 0.0) { -1.0 } else { 1.0 };
+    let (d0, d1, d2) = (side * d0, side * d1, side * d2);
+    let (up, down) = (quantum - d0, quantum + d0);
+    if up <= 0.0 || down <= 0.0 {
+        return 0.0;
     }
-    sum
-}
-
-/// Coefficients about a point moved by s.
-#[inline]
-fn moved<const N: usize>(c: &[f64; N], s: f64) -> [f64; N] {
-    let mut moved = *c;
-    moved[0] = horner(c, s);
-    match N {
-        2 | 3 => moved[1] = if N == 2 { c[1] } else { c[1] + 2.0 * s * c[2] },
-        _ => {
-            moved[1] = c[1] + s * (2.0 * c[2] + s * (3.0 * c[3]));
-            moved[2] = c[2] + s * (3.0 * c[3]);
-        }
+    if d2 == 0.0 {
+        return if d1 > 0.0 { up / d1 } else { f64::INFINITY };
     }
-    moved
+    // What is chosen rather than branched to costs nothing: signs of curvatures cannot be foreseen.
+    let square = d1 * d1;
+    let low = square - 4.0 * d2 * down;
+    let falls = d1 < 0.0;
+    let leaves_below = falls && low >= 0.0;
+    let root = (if leaves_below { low } else { square + 4.0 * d2 * up }).sqrt() + d1.abs();
+    let edge = if leaves_below { down } else { up };
+    let (above, below) = if falls && !leaves_below { (root, 2.0 * d2) } else { (2.0 * edge, root) };
+    above / below
 }
 
 #[cfg(test)]
@@ -168,8 +177,8 @@ mod tests {
         fn the_band_is_left_when_predicted(
             d0 in -0.99f64..0.99, d1 in -5.0f64..5.0, d2 in prop_oneof![Just(0.0), -5.0f64..5.0]
         ) {
-            let record = Record::<2, 3> { x: [d0, d1, d2], tx: 0.0, q: [0.0, 0.0], tq: 0.0, quantum: 1.0 };
-            let delay = record.band_delay(0.0);
+            let record = [d0, d1, d2, 0.0, 0.0, 0.0, 0.0, 1.0];
+            let delay = Record::<2>(&record).band_delay(0.0);
             let d = |s: f64| (d0 + s * (d1 + s * d2)).abs();
             if delay.is_finite() {
                 prop_assert!((d(delay) - 1.0).abs() < 1e-9 * (1.0 + delay * d1.abs() + delay * delay * d2.abs()));

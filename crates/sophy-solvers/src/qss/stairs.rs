@@ -4,7 +4,7 @@ use super::engine::Qss;
 use sophy_field::{Equations, Fault, WatchIndex};
 use sophy_segment::Sign;
 
-impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
+impl<const ORDER: usize> Qss<ORDER> {
     /// A stair is stepped when its lower watch is negative or its upper one is not; whether it was.
     pub(super) fn step_stair(
         &mut self,
@@ -33,7 +33,7 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         // On the edge, located or to rounding: the next one. Thrown further by a jump: where it is.
         let on_edge = located || (argument - edge).abs() <= 4.0 * (edge.abs().next_up() - edge.abs());
         let next = if on_edge { now + step } else { code.step(&self.memory, argument) };
-        self.set_scalar(at, next);
+        self.set_scalar(e, at, next);
         for other in code.watches {
             let index = other.position();
             if self.watches[index].armed > 0 {

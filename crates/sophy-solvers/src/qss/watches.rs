@@ -1,7 +1,9 @@
 //! Watches: the first sign change of a guard's or switch's quantity, located on x.
 
 use super::engine::{MOST_REPEATS, Qss};
-use sophy_field::{Equations, Fault, Formula, Jet, Journal, Record, SourceIndex, WatchIndex, sign_bit};
+use sophy_field::{
+    Enclosing, Equations, Fault, Formula, Jet, Journal, NOW, Record, SourceIndex, WatchIndex, sign_bit,
+};
 use sophy_segment::{Interval, Search, Sign, Start, cubic_crossing, first_crossing, parabola_crossing};
 use std::cmp::Reverse;
 
@@ -81,7 +83,7 @@ impl Default for WatchRecord {
     }
 }
 
-impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
+impl<const ORDER: usize> Qss<ORDER> {
     pub(super) fn arm(&mut self, watch: WatchIndex) {
         let record = &mut self.watches[watch.position()];
         record.armed += 1;
@@ -225,7 +227,7 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
             if let Some((stair, _)) = e.watches[index].stair {
                 let argument = self.value_of(e, &e.watches[index].left, t, 1)[0];
                 let step = e.stairs[stair as usize].step(&self.memory, argument);
-                changed |= self.set_scalar(e.layout.stairs + stair, step);
+                changed |= self.set_scalar(e, e.layout.stairs + stair, step);
             }
             let value = self.value_of(e, &e.watches[index].formula, t, 1)[0];
             changed |= self.publish(e, watch, Sign::of(value - record.bias));
@@ -334,19 +336,19 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         let mut changed = false;
         for &(truth, signs) in &e.watches[watch.position()].truths {
             let holds = if signs & sign_bit(sign) != 0 { 1.0 } else { 0.0 };
-            changed |= self.set_scalar(e.layout.truths + truth, holds);
+            changed |= self.set_scalar(e, e.layout.truths + truth, holds);
         }
         changed
     }
 
     /// Writes a truth or stair; whether it changed.
     #[allow(clippy::float_cmp)] // the same whole number or not
-    pub(super) fn set_scalar(&mut self, at: u32, value: f64) -> bool {
+    pub(super) fn set_scalar(&mut self, e: &Equations, at: u32, value: f64) -> bool {
         if self.memory[at as usize] == value {
             return false;
         }
         self.memory[at as usize] = value;
-        self.enclosed[at as usize] = Interval::point(value);
+        self.enclosed[(at - e.layout.rest) as usize] = Interval::point(value);
         true
     }
 
@@ -426,13 +428,9 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
     fn enclose(&mut self, e: &Equations, watch: WatchIndex, times: Interval) -> [Interval; 3] {
         self.statistics.enclosures += 1;
         let formula = &e.watches[watch.position()].formula;
-        for &source in e.sources(&formula.sources) {
-            let at = e.layout.series_of(source);
-            let jet = self.records[source.position()].enclose(times);
-            let width = (ORDER + 1).min(3);
-            self.enclosed[at..at + width].copy_from_slice(&jet[..width]);
-        }
-        let mut jet = e.formula_enclosed(formula, &self.locations, &mut self.enclosed);
+        let rest = e.layout.rest;
+        let mut memory = Enclosing { numbers: &self.memory, enclosed: &mut self.enclosed, rest, now: times };
+        let mut jet = e.formula_enclosed(formula, &self.locations, &mut memory);
         jet[0] = jet[0] - Interval::point(self.watches[watch.position()].bias);
         jet
     }
@@ -448,7 +446,7 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         let code = &e.watches[watch.position()];
         let c = match code.level {
             Some((source, number)) => {
-                let mut c = self.records[source.position()].jet_at(t);
+                let mut c = self.record(source.position()).x_from(t);
                 c[0] = number.map_or(c[0], |at| c[0] - self.memory[at as usize]);
                 c
             }
@@ -462,14 +460,10 @@ impl<const ORDER: usize, const Q: usize, const X: usize> Qss<ORDER, Q, X> {
         if rest.iter().all(|c| c.is_finite()) { Ok(c) } else { Ok([value, 0.0, 0.0, 0.0]) }
     }
 
-    /// A formula on the series side at `t`.
+    /// A formula over x at `t`.
     #[inline]
     pub(super) fn value_of(&mut self, e: &Equations, formula: &Formula, t: f64, orders: usize) -> Jet {
-        for &source in e.sources(&formula.sources) {
-            let at = e.layout.series_of(source);
-            let jet = self.records[source.position()].x_from(t);
-            self.memory[at..at + ORDER + 1].copy_from_slice(&jet[..=ORDER]);
-        }
+        self.memory[NOW] = t;
         e.formula(formula, &self.locations, &mut self.memory, orders)
     }
 }

@@ -1,0 +1,62 @@
+use std::ops::{Deref, DerefMut};
+
+/// Numbers that begin at a cache line, so that a record of 8 lies in one.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    lines: Vec<Line>,
+    length: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Line([f64; 8]);
+
+impl From<&[f64]> for Memory {
+    fn from(numbers: &[f64]) -> Self {
+        let mut lines = vec![Line([0.0; 8]); numbers.len().div_ceil(8)];
+        for (line, numbers) in lines.iter_mut().zip(numbers.chunks(8)) {
+            line.0[..numbers.len()].copy_from_slice(numbers);
+        }
+        Memory { lines, length: numbers.len() }
+    }
+}
+
+#[allow(unsafe_code)]
+impl Deref for Memory {
+    type Target = [f64];
+
+    #[inline]
+    fn deref(&self) -> &[f64] {
+        // SAFETY: a line is eight numbers without padding, and there are at least `length` numbers in all lines.
+        unsafe { std::slice::from_raw_parts(self.lines.as_ptr().cast::<f64>(), self.length) }
+    }
+}
+
+#[allow(unsafe_code)]
+impl DerefMut for Memory {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut [f64] {
+        // SAFETY: as `deref`; the lines are borrowed as a whole.
+        unsafe { std::slice::from_raw_parts_mut(self.lines.as_mut_ptr().cast::<f64>(), self.length) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_kept_and_aligned() {
+        for length in [0, 1, 7, 8, 9, 1000] {
+            let numbers: Vec<f64> = (0..length).map(f64::from).collect();
+            let mut memory = Memory::from(numbers.as_slice());
+            assert_eq!(memory[..], numbers[..]);
+            assert_eq!(memory.clone()[..], numbers[..]);
+            assert_eq!(memory.as_ptr() as usize % 64, 0);
+            if let Some(last) = memory.last_mut() {
+                *last = -1.0;
+                assert_eq!(memory[length as usize - 1], -1.0);
+            }
+        }
+    }
+}
