@@ -159,7 +159,8 @@ pub fn compile_sharing(
     if too_deep {
         return Err(CompileError::TooDeep { system: system.name.clone() });
     }
-    equations.layout.length = memory.end() + temporaries;
+    // Room for reading a jet of any width at the last temporary.
+    equations.layout.length = memory.end() + temporaries + 4;
     equations.image = image(system, &memory, &mut evaluator, &parameters, equations.layout.length);
     let equations = Equations { programs, operands, blocks, calls, ..equations };
     Ok(Compiled { equations, logic, parameters })

@@ -1,15 +1,18 @@
 //! When what happens next.
 
-/// A 4-ary heap of `(time, slot)` with the keys in its nodes; ties go to the smaller slot.
+/// A 4-ary heap of times and slots with the keys in its nodes; ties go to the smaller slot.
 ///
 /// Slots are numbered by the engine: states first, then watches, then timers. A slot without a time is not in
 /// the heap.
 #[derive(Clone, Debug, Default)]
 pub struct Agenda {
-    heap: Vec<(f64, u32)>,
+    heap: Vec<Node>,
     /// Position of each slot in the heap, or `ABSENT`.
     position: Vec<u32>,
 }
+
+/// A time and a slot as one number, which orders nodes: above 64 bits the time, as an integer of the same order.
+type Node = i128;
 
 const ABSENT: u32 = u32::MAX;
 const ARITY: usize = 4;
@@ -23,7 +26,7 @@ impl Agenda {
     /// The earliest time and its slot.
     #[inline]
     pub fn first(&self) -> Option<(f64, u32)> {
-        self.heap.first().copied()
+        self.heap.first().map(|&node| (time_of(node), slot_of(node)))
     }
 
     /// The time of a slot; infinite if it has none.
@@ -31,89 +34,106 @@ impl Agenda {
     pub fn time(&self, slot: u32) -> f64 {
         match self.position[slot as usize] {
             ABSENT => f64::INFINITY,
-            position => self.heap[position as usize].0,
+            position => time_of(self.heap[position as usize]),
         }
     }
 
     /// Gives a slot a time; an infinite one takes it off the agenda. `time` must not be NaN.
     #[inline]
     pub fn set(&mut self, slot: u32, time: f64) {
-        let position = self.position[slot as usize];
-        if position == ABSENT {
-            if time < f64::INFINITY {
-                self.heap.push((time, slot));
-                self.rise(self.heap.len() - 1, (time, slot));
-            }
-            return;
-        }
-        let position = position as usize;
-        if time < f64::INFINITY {
-            if earlier((time, slot), self.heap[position]) {
-                self.rise(position, (time, slot));
-            } else {
-                self.sink(position, (time, slot));
-            }
-        } else {
-            self.remove(position);
-        }
-    }
-
-    fn remove(&mut self, position: usize) {
-        let (_, slot) = self.heap[position];
-        self.position[slot as usize] = ABSENT;
-        let Some(last) = self.heap.pop() else { return };
-        if position < self.heap.len() {
-            if earlier(last, self.heap[position]) {
-                self.rise(position, last);
-            } else {
-                self.sink(position, last);
-            }
-        }
-    }
-
-    #[inline]
-    fn rise(&mut self, mut position: usize, item: (f64, u32)) {
-        while position > 0 {
-            let parent = (position - 1) / ARITY;
-            if !earlier(item, self.heap[parent]) {
-                break;
-            }
-            self.place(position, self.heap[parent]);
-            position = parent;
-        }
-        self.place(position, item);
-    }
-
-    #[inline]
-    fn sink(&mut self, mut position: usize, item: (f64, u32)) {
-        loop {
-            let first = position * ARITY + 1;
-            let end = (first + ARITY).min(self.heap.len());
-            let Some(mut least) = (first < end).then_some(first) else { break };
-            for child in first + 1..end {
-                if earlier(self.heap[child], self.heap[least]) {
-                    least = child;
+        let mut position = self.position[slot as usize] as usize;
+        let finite = time < f64::INFINITY;
+        if position == ABSENT as usize || !finite {
+            match (position == ABSENT as usize, finite) {
+                (true, false) => return,
+                (false, _) => return self.remove(position),
+                (true, true) => {
+                    position = self.heap.len();
+                    self.heap.push(Node::MAX);
                 }
             }
-            if !earlier(self.heap[least], item) {
-                break;
-            }
-            self.place(position, self.heap[least]);
-            position = least;
         }
-        self.place(position, item);
+        let node = node(time, slot);
+        if node < self.heap[position] { self.rise(position, node) } else { self.sink(position, node) }
+    }
+
+    #[cold]
+    fn remove(&mut self, position: usize) {
+        self.position[slot_of(self.heap[position]) as usize] = ABSENT;
+        let Some(last) = self.heap.pop() else { return };
+        if position < self.heap.len() {
+            if last < self.heap[position] { self.rise(position, last) } else { self.sink(position, last) }
+        }
     }
 
     #[inline]
-    fn place(&mut self, position: usize, item: (f64, u32)) {
-        self.heap[position] = item;
-        self.position[item.1 as usize] = position as u32;
+    fn rise(&mut self, mut position: usize, node: Node) {
+        while position > 0 {
+            let parent = (position - 1) / ARITY;
+            let above = self.heap[parent];
+            if node >= above {
+                break;
+            }
+            self.place(position, above);
+            position = parent;
+        }
+        self.place(position, node);
+    }
+
+    #[inline]
+    fn sink(&mut self, mut position: usize, node: Node) {
+        loop {
+            let first = position * ARITY + 1;
+            // Which child is the least cannot be foreseen: it is chosen without branches.
+            let (least, at) = match self.heap.get(first..) {
+                Some(&[a, b, c, d, ..]) => {
+                    let (left, at_left) = if b < a { (b, 1) } else { (a, 0) };
+                    let (right, at_right) = if d < c { (d, 3) } else { (c, 2) };
+                    if right < left { (right, first + at_right) } else { (left, first + at_left) }
+                }
+                Some(&[a, ref others @ ..]) => {
+                    others.iter().zip(first + 1..).fold((a, first), |least, (&node, at)| {
+                        if node < least.0 { (node, at) } else { least }
+                    })
+                }
+                _ => break,
+            };
+            if least >= node {
+                break;
+            }
+            self.place(position, least);
+            position = at;
+        }
+        self.place(position, node);
+    }
+
+    #[inline]
+    fn place(&mut self, position: usize, node: Node) {
+        self.heap[position] = node;
+        self.position[slot_of(node) as usize] = position as u32;
     }
 }
 
 #[inline]
-fn earlier(a: (f64, u32), b: (f64, u32)) -> bool {
-    a.0 < b.0 || (a.0 == b.0 && a.1 < b.1)
+fn node(time: f64, slot: u32) -> Node {
+    // −0 and 0 are one time.
+    (Node::from(ordered((time + 0.0).to_bits() as i64)) << 64) | Node::from(slot)
+}
+
+#[inline]
+fn time_of(node: Node) -> f64 {
+    f64::from_bits(ordered((node >> 64) as i64) as u64)
+}
+
+#[inline]
+fn slot_of(node: Node) -> u32 {
+    node as u32
+}
+
+/// Bits of a float as an integer of the same order, and back.
+#[inline]
+fn ordered(bits: i64) -> i64 {
+    bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
 #[cfg(test)]
@@ -129,7 +149,7 @@ mod tests {
             let mut agenda = Agenda::new(12);
             let mut plain = [f64::INFINITY; 12];
             for (slot, time) in changes {
-                let time = if time == 255 { f64::INFINITY } else { f64::from(time) };
+                let time = if time == 255 { f64::INFINITY } else { f64::from(time) - 5.0 };
                 agenda.set(slot, time);
                 plain[slot as usize] = time;
                 let least = (0..12u32).filter(|&s| plain[s as usize] < f64::INFINITY)

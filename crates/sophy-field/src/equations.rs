@@ -283,6 +283,19 @@ impl Equations {
         coefficients
     }
 
+    /// Four numbers at the result of a row, of which so many are its coefficients as its program was asked for.
+    #[inline]
+    pub fn rate(&self, result: Operand, memory: &[f64]) -> Jet {
+        match result {
+            Operand::Scalar(at) => [memory[at as usize], 0.0, 0.0, 0.0],
+            Operand::Jet(at) => match memory[at as usize..] {
+                [c0, c1, c2, c3, ..] => [c0, c1, c2, c3],
+                // Memory ends with room for a jet.
+                _ => [f64::NAN; 4],
+            },
+        }
+    }
+
     /// The entries of a range.
     #[inline]
     pub fn entries(&self, range: &Range<u32>) -> &[Entry] {

@@ -216,7 +216,7 @@ fn trajectories_are_followed() {
             assert_eq!(interpreted, native, "{count} coefficients, {orders} orders, at {now}");
             let value = |first: usize| {
                 let s = now - numbers[first + count as usize];
-                (0..count as usize).map(|k| numbers[first + k] * s.powi(k as i32)).sum::<f64>()
+                (0..count as usize).rev().fold(0.0, |sum, k| sum * s + numbers[first + k])
             };
             let expected = value(16) * value(8);
             let found = f64::from_bits(native[at(2) as usize]);

@@ -328,9 +328,9 @@ proptest! {
         point in wild_point(),
         motion in motion(),
     ) {
-        let case = case(&steps, point, false);
         // A trajectory that is −0 may be followed to 0.
         let point = Point { sources: point.sources.map(|x| x + 0.0), ..point };
+        let case = case(&steps, point, false);
         let jets = std::array::from_fn(|k| [point.sources[k], motion[k][0], motion[k][1], 0.0]);
         for (formula, node) in case.formulas() {
             let expected = case.value(node, &point.sources);

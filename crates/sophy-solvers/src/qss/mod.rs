@@ -5,9 +5,9 @@
 //!
 //! | thesis | here |
 //! | --- | --- |
-//! | δ_int of algorithm 3.1, eq. (3.7) | [`Qss::step`](engine): q ← x, q̇ ← ẋ |
-//! | λ of algorithm 3.1, D of §3.2.2 | [`Qss::step`](engine): evaluate what q influences |
-//! | δ_ext of algorithm 3.1, eq. (3.5) | [`Qss::set_rate`](engine): x ← x(t); ẋ, ẍ ← new |
+//! | δ_int of algorithm 3.1, eq. (3.7) | [`Qss::step`](steps): q ← x, q̇ ← ẋ |
+//! | λ of algorithm 3.1, D of §3.2.2 | [`Qss::step`](steps): evaluate what q influences |
+//! | δ_ext of algorithm 3.1, eq. (3.5) | [`Qss::set_rate`](steps): x ← x(t); ẋ, ẍ ← new |
 //! | ta of algorithm 3.1, eq. (3.6) | [`Record::band_delay`](record) |
 //! | algorithm 3.2 | the blocks of `sophy_field::Equations`; ẍ is the exact directional derivative instead of the difference quotient |
 //! | timeToHit, eq. (8.3) | [`watches`] |
@@ -18,11 +18,14 @@
 //! change of location q starts on x *with its slope*, instead of one quantum later. The algorithms of chapter 2
 //! print δ_int before λ; the output λ is what was predicted before: x at the edge of the band, which q becomes.
 
+mod bend;
+mod change;
 mod engine;
 mod implicit;
 mod record;
 mod settings;
 mod stairs;
+mod steps;
 mod watches;
 
 pub use engine::{Qss, Qss1, Qss2, Qss3};

@@ -100,12 +100,17 @@ impl<const ORDER: usize> Record<'_, ORDER> {
     /// Time from `time` until |x − q| = ΔQ (eq. 3.6), infinite if never.
     #[inline]
     pub(super) fn band_delay(self, time: f64) -> f64 {
-        let ([x0, x1, x2, x3], [q0, q1, q2]) = (self.x_from(time), self.q_from(time));
-        if Place::<ORDER>::X > 3 {
-            return cubic_leaves([x0 - q0, x1 - q1, x2 - q2, x3], self.quantum());
-        }
-        parabola_leaves([x0 - q0, x1 - q1, x2], self.quantum())
+        leaves::<ORDER>(self.x_from(time), self.q_from(time), self.quantum())
     }
+}
+
+/// Delay until |x − q|, given by their coefficients, reaches the quantum (eq. 3.6), infinite if never.
+#[inline]
+pub(super) fn leaves<const ORDER: usize>([x0, x1, x2, x3]: Jet, [q0, q1, q2]: [f64; 3], quantum: f64) -> f64 {
+    if Place::<ORDER>::X > 3 {
+        return cubic_leaves([x0 - q0, x1 - q1, x2 - q2, x3], quantum);
+    }
+    parabola_leaves([x0 - q0, x1 - q1, x2], quantum)
 }
 
 /// The same, to be written.
@@ -113,17 +118,26 @@ impl<const ORDER: usize> Record<'_, ORDER> {
 pub(super) struct RecordMut<'a, const ORDER: usize>(pub(super) &'a mut [f64]);
 
 impl<const ORDER: usize> RecordMut<'_, ORDER> {
+    #[inline]
+    pub(super) fn as_read(&self) -> Record<'_, ORDER> {
+        Record(self.0)
+    }
+
     /// x follows these coefficients from `time` on.
     #[inline]
     pub(super) fn set_x(&mut self, jet: Jet, time: f64) {
-        self.0[..Place::<ORDER>::X].copy_from_slice(&jet[..Place::<ORDER>::X]);
+        for (k, c) in jet.into_iter().enumerate().take(Place::<ORDER>::X) {
+            self.0[k] = c;
+        }
         self.0[Place::<ORDER>::TX] = time;
     }
 
     /// q follows these coefficients from `time` on.
     #[inline]
     pub(super) fn set_q(&mut self, q: [f64; 3], time: f64) {
-        self.0[Place::<ORDER>::Q..Place::<ORDER>::TQ].copy_from_slice(&q[..Place::<ORDER>::QS]);
+        for (k, c) in q.into_iter().enumerate().take(Place::<ORDER>::QS) {
+            self.0[Place::<ORDER>::Q + k] = c;
+        }
         self.0[Place::<ORDER>::TQ] = time;
     }
 

@@ -1,6 +1,7 @@
 //! Watches: the first sign change of a guard's or switch's quantity, located on x.
 
-use super::engine::{MOST_REPEATS, Qss};
+use super::engine::Qss;
+use super::steps::MOST_REPEATS;
 use sophy_field::{
     Enclosing, Equations, Fault, Formula, Jet, Journal, NOW, Record, SourceIndex, WatchIndex, sign_bit,
 };
@@ -324,7 +325,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let stepped = self.step_stair(e, watch, sign, located, t)?;
         if changed || stepped {
             for &entry in e.entries(&e.on_watch[watch.position()]) {
-                self.evaluate_entry(e, entry, t, journal)?;
+                self.evaluate_entry(e, entry, t, journal).map_err(|failed| self.why(failed))?;
             }
             self.mark_dependents(e, watch);
         }

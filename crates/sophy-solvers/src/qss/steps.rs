@@ -1,0 +1,188 @@
+//! The loop of the method: a state quantises itself, what reads it is evaluated, integrators are told (algorithms 3.1,
+//! 3.2). Nothing here allocates, and what cannot go on is kept in [`Qss::fault`], out of the way of what can.
+
+use super::bend::STRAIGHT;
+use super::engine::{Failed, Qss};
+use super::record::leaves;
+use sophy_field::{Block, Entry, Equations, Fault, Jet, Journal, NOW, RowResult, StateIndex};
+
+/// How often a slot may be scheduled at its own instant.
+pub(super) const MOST_REPEATS: u32 = 100;
+
+impl<const ORDER: usize> Qss<ORDER> {
+    /// A state whose time has come: the edge of its band, or only a rate that bends.
+    #[inline]
+    pub(super) fn state_due(
+        &mut self,
+        e: &Equations,
+        i: usize,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Failed> {
+        if self.own[i].bend.due { self.refresh(e, i, t, journal) } else { self.step(e, i, t, journal) }
+    }
+
+    /// A state's quantised trajectory has come to the edge of its band (algorithm 3.1).
+    #[inline]
+    fn step(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Failed> {
+        let record = self.record(i);
+        let (before, x) = (record.tq(), record.x_from(t));
+        self.count_repeats(i, before, t)?;
+        // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
+        let mut quantum = self.own[i].quantum.at(x[0]);
+        let mut q = [x[0], if ORDER > 1 { x[1] } else { 0.0 }, if ORDER > 2 { x[2] } else { 0.0 }];
+        if self.settings.implicit {
+            q = self.quantise_ahead(e, i, t, quantum).unwrap_or(q);
+            // It begins at the edge of the band and moves inward, but for rounding.
+            quantum += 1e-9 * quantum + 4.0 * f64::EPSILON * x[0].abs();
+        }
+        let mut record = self.record_mut(i);
+        record.set_q(q, t);
+        record.set_quantum(quantum);
+        self.statistics.steps += 1;
+        if journal.wanted {
+            journal.push(sophy_field::Record::Step { time: t, state: StateIndex::new(i) });
+        }
+        // λ: what depends on it is evaluated, eq. (3.2.2)
+        for &entry in e.entries(&e.influence[i]) {
+            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+        }
+        // Its own rate, if it was among them, has scheduled it already.
+        if self.agenda.time(i as u32) <= t {
+            self.schedule(i, t);
+        }
+        Ok(())
+    }
+
+    /// A rate is evaluated again because it bends.
+    fn refresh(&mut self, e: &Equations, i: usize, t: f64, journal: &mut Journal) -> Result<(), Failed> {
+        self.count_repeats(i, self.record(i).tx(), t)?;
+        self.statistics.refreshes += 1;
+        self.refreshed = i;
+        for &entry in e.entries(&e.own[i]) {
+            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+        }
+        self.refreshed = usize::MAX;
+        Ok(())
+    }
+
+    /// A state may be scheduled again at the instant `before` of its last turn, but not for ever.
+    #[inline]
+    fn count_repeats(&mut self, i: usize, before: f64, t: f64) -> Result<(), Failed> {
+        let repeats = &mut self.own[i].repeats;
+        *repeats = if before < t { 0 } else { *repeats + 1 };
+        if *repeats > MOST_REPEATS {
+            return Err(self.fail(Fault::Resolution { state: StateIndex::new(i), time: t }));
+        }
+        Ok(())
+    }
+
+    /// Evaluates the rates of a block at `t` (algorithm 3.2).
+    #[inline]
+    fn evaluate(
+        &mut self,
+        e: &Equations,
+        block: &Block,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Failed> {
+        let orders = if block.bends { ORDER + 1 } else { ORDER };
+        self.run_block(e, block, t, orders);
+        if block.bends {
+            self.still = self.still_for(e, block);
+        }
+        for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
+            self.set_rate(e, *row, t, e.rate(row.result, &self.memory), journal)?;
+        }
+        Ok(())
+    }
+
+    /// Evaluates the block of an entry.
+    #[inline(never)]
+    pub(super) fn evaluate_entry(
+        &mut self,
+        e: &Equations,
+        entry: Entry,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Failed> {
+        self.evaluate(e, e.block(entry, &self.locations), t, journal)
+    }
+
+    /// Runs the program of a block at `t`.
+    #[inline]
+    pub(super) fn run_block(&mut self, e: &Equations, block: &Block, t: f64, orders: usize) {
+        self.memory[NOW] = t;
+        e.execute(&block.call, &mut self.memory, orders);
+    }
+
+    /// δ_ext: a new rate arrives (algorithm 3.1). `rate` holds f, ḟ, ½f̈ along q, as far as they count.
+    #[inline]
+    fn set_rate(
+        &mut self,
+        e: &Equations,
+        row: RowResult,
+        t: f64,
+        rate: Jet,
+        journal: &mut Journal,
+    ) -> Result<(), Failed> {
+        let i = row.state.position();
+        let [f, f1, f2, _] = rate;
+        let (f1, f2) = (if ORDER > 1 { f1 } else { 0.0 }, if ORDER > 2 { f2 } else { 0.0 });
+        let mut record = self.record_mut(i);
+        let x = record.as_read().x_at(t);
+        let jet = [x, f, 0.5 * f1, f2 / 3.0];
+        let size = (x.abs() + f.abs()) + (f1.abs() + f2.abs());
+        if !size.is_finite() {
+            return Err(self.not_finite(row.state, t, [x, f, f1, f2]));
+        }
+        let delay = leaves::<ORDER>(jet, record.as_read().q_from(t), record.as_read().quantum());
+        record.set_x(jet, t);
+        self.statistics.rates += 1;
+        if row.bends {
+            self.bend(i, t, rate);
+        } else if self.own[i].bend.bends {
+            self.own[i].bend = STRAIGHT;
+        }
+        if journal.wanted {
+            journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients: jet });
+        }
+        self.due_in(i, t, t, delay);
+        for &watch in e.watches_of_source.row(i) {
+            self.mark(watch);
+        }
+        Ok(())
+    }
+
+    /// ta: when a state next needs attention (algorithm 3.1, eq. 3.6), or its rate because it bends.
+    #[inline]
+    pub(super) fn schedule(&mut self, i: usize, t: f64) {
+        let record = self.record(i);
+        let (delay, evaluated) = (record.band_delay(t), record.tx());
+        self.due_in(i, t, evaluated, delay);
+    }
+
+    /// x, whose rate was evaluated at `evaluated`, leaves the band after `delay`.
+    #[inline]
+    fn due_in(&mut self, i: usize, t: f64, evaluated: f64, delay: f64) {
+        let mut next = t + delay;
+        let own = &mut self.own[i];
+        if own.bend.bends {
+            let trusted = evaluated + own.bend.trusted_for::<ORDER>(evaluated, next - evaluated);
+            own.bend.due = trusted < next;
+            next = next.min(trusted);
+        }
+        // Rounding must not lead back; what is not a number is due at once and counted.
+        self.agenda.set(i as u32, if next > t { next } else { t });
+    }
+
+    #[cold]
+    fn not_finite(&mut self, state: StateIndex, time: f64, [x, f, f1, f2]: [f64; 4]) -> Failed {
+        let value = [f, f1, f2].into_iter().find(|f| !f.is_finite()).unwrap_or(f64::INFINITY);
+        self.fail(if x.is_finite() {
+            Fault::NotFinite { state, time, value }
+        } else {
+            Fault::StateNotFinite { state, time, value: x }
+        })
+    }
+}
