@@ -206,8 +206,8 @@ impl Enclosing<'_> {
 /// Programs without it are interpreted; the bits are the same.
 #[derive(Clone)]
 pub struct Kernels {
-    /// By orders − 1, then by program.
-    of: Vec<Vec<Option<Kernel>>>,
+    /// By program, then by orders − 1.
+    of: Vec<[Option<Kernel>; 4]>,
     /// Keeps the machine code alive.
     _code: Arc<dyn Any + Send + Sync>,
 }
@@ -219,20 +219,20 @@ pub struct Kernels {
 pub type Kernel = unsafe extern "C" fn(operands: *const u32, memory: *mut f64);
 
 impl Kernels {
-    /// Kernels by orders − 1 and then by program; `code` is what they live in.
+    /// Kernels by program and then by orders − 1; `code` is what they live in.
     ///
     /// # Safety
     /// A kernel lives as long as `code`. Run with the operands of any [`Call`] of its program and a memory as long
     /// as that of the [`Equations`](crate::Equations) they were made for, it reads and writes inside both only.
     #[allow(unsafe_code)]
-    pub unsafe fn new(of: Vec<Vec<Option<Kernel>>>, code: Arc<dyn Any + Send + Sync>) -> Self {
+    pub unsafe fn new(of: Vec<[Option<Kernel>; 4]>, code: Arc<dyn Any + Send + Sync>) -> Self {
         Kernels { of, _code: code }
     }
 
     /// The kernel of a program, if it has one.
     #[inline]
     pub fn get(&self, program: u32, orders: usize) -> Option<Kernel> {
-        self.of.get(orders - 1)?.get(program as usize).copied().flatten()
+        self.of.get(program as usize)?[(orders - 1) % 4]
     }
 
     /// How many kernels there are.

@@ -9,6 +9,6 @@ mod cubic;
 mod enclosed;
 mod parabola;
 
-pub use cubic::{cubic_crossing, cubic_leaves};
+pub use cubic::{cube_root, cubic_crossing, cubic_leaves, rising_root};
 pub use enclosed::{Search, Start, first_crossing};
 pub use parabola::parabola_crossing;

@@ -21,7 +21,9 @@ mod interval;
 mod segment;
 mod sign;
 
-pub use crossing::{Search, Start, cubic_crossing, cubic_leaves, first_crossing, parabola_crossing};
+pub use crossing::{
+    Search, Start, cube_root, cubic_crossing, cubic_leaves, first_crossing, parabola_crossing, rising_root,
+};
 pub use instant::Instant;
 pub use interval::Interval;
 pub use segment::SegmentRef;

@@ -1,7 +1,7 @@
 //! Crossings of cubics against known roots, exact arithmetic and a dense search.
 
 use proptest::prelude::*;
-use sophy_segment::{Sign, cubic_crossing, cubic_leaves};
+use sophy_segment::{Sign, cube_root, cubic_crossing, cubic_leaves, rising_root};
 
 /// Failures are not written into the source tree; a case worth keeping becomes a test of its own.
 fn cases(cases: u32) -> ProptestConfig {
@@ -137,4 +137,25 @@ fn conventions() {
     assert_eq!(cubic_leaves([1.0, 0.0, 0.0, 0.0], 1.0), 0.0);
     assert_eq!(cubic_leaves([f64::NAN, 0.0, 0.0, 0.0], 1.0), 0.0);
     assert_eq!(cubic_leaves([0.0, 0.0, 0.0, -8.0], 1.0), 0.5);
+}
+
+proptest! {
+    #![proptest_config(cases(20_000))]
+
+    #[test]
+    fn cube_roots(mantissa in 1.0f64..2.0, exponent in -1070i32..1023) {
+        let x = libm::scalbn(mantissa, exponent);
+        let (found, expected) = (cube_root(x), libm::cbrt(x));
+        prop_assert!((found / expected - 1.0).abs() < 4.0 * f64::EPSILON, "{found:e} {expected:e}");
+    }
+
+    /// One, two or three terms of any size.
+    #[test]
+    fn rising_roots(c in prop::array::uniform3(prop_oneof![4 => -40i32..40, 1 => Just(i32::MIN)]), root in -20i32..20) {
+        let [c1, c2, c3] = c.map(|e| if e == i32::MIN { 0.0 } else { libm::scalbn(1.3, e) });
+        prop_assume!(c1 + c2 + c3 > 0.0);
+        let s = libm::scalbn(1.7, root);
+        let found = rising_root([c1, c2, c3], s * (c1 + s * (c2 + s * c3)));
+        prop_assert!((found / s - 1.0).abs() < 1e-14, "{found:e} {s:e}");
+    }
 }

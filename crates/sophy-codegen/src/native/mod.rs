@@ -72,9 +72,8 @@ unsafe fn compile(programs: &[Program], asked: &Asked) -> Result<Kernels, NoNati
     let mut module = module()?;
     let (mut context, mut builder) = (module.make_context(), FunctionBuilderContext::new());
     let mut thunks = Thunks::default();
-    let mut functions: Vec<Vec<Option<FuncId>>> = Vec::new();
+    let mut functions: Vec<[Option<FuncId>; 4]> = vec![[None; 4]; programs.len()];
     for (orders, calls) in (1..).zip(&asked.calls) {
-        let mut of = vec![None; programs.len()];
         for (position, program) in programs.iter().enumerate() {
             let Some(operands) = calls[position].filter(|_| program.instructions.len() <= LONGEST) else {
                 continue;
@@ -88,9 +87,8 @@ unsafe fn compile(programs: &[Program], asked: &Asked) -> Result<Kernels, NoNati
             let function = module.declare_anonymous_function(&context.func.signature).map_err(Box::new)?;
             module.define_function(function, &mut context).map_err(Box::new)?;
             module.clear_context(&mut context);
-            of[position] = Some(function);
+            functions[position][orders - 1] = Some(function);
         }
-        functions.push(of);
     }
     thunks.define(&mut module, &mut context, &mut builder)?;
     module.finalize_definitions().map_err(Box::new)?;
@@ -99,7 +97,7 @@ unsafe fn compile(programs: &[Program], asked: &Asked) -> Result<Kernels, NoNati
         // SAFETY: this is the code of a function of this signature.
         unsafe { std::mem::transmute::<*const u8, Kernel>(code) }
     };
-    let kernels = functions.into_iter().map(|of| of.into_iter().map(|f| f.map(kernel)).collect()).collect();
+    let kernels = functions.into_iter().map(|of| of.map(|function| function.map(kernel))).collect();
     // SAFETY: `lower` addresses what the interpreter does.
     Ok(unsafe { Kernels::new(kernels, Arc::new(Code(Mutex::new(Some(module))))) })
 }

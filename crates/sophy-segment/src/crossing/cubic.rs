@@ -47,7 +47,11 @@ pub fn cubic_leaves(d: [f64; 4], band: f64) -> f64 {
     }
     if d0 == 0.0 && d1 == 0.0 && d2 == 0.0 {
         // As after every step of a state: q has taken value, slope and curvature of x.
-        return if d3 == 0.0 { f64::INFINITY } else { libm::cbrt(band / d3.abs()) };
+        return if d3 == 0.0 { f64::INFINITY } else { cube_root(band / d3.abs()) };
+    }
+    if d3 != 0.0 && d1 * d3 >= 0.0 && d2 * d3 >= 0.0 {
+        // It moves in one direction only.
+        return rising_root([d1.abs(), d2.abs(), d3.abs()], band - d0 * d3.signum());
     }
     let cubic = Cubic(d);
     let (turns, count) = cubic.turns();
@@ -67,6 +71,66 @@ pub fn cubic_leaves(d: [f64; 4], band: f64) -> f64 {
     let edge = if rises { band } else { -band };
     Cubic([d0 - edge, d1, d2, d3]).root_behind(from)
 }
+
+/// The s > 0 at which `c₁ s + c₂ s² + c₃ s³` reaches `value`, to a few ulp.
+///
+/// - `c`: c₁, c₂ and c₃, not negative and not all 0
+/// - `value`: positive
+#[must_use]
+#[inline]
+pub fn rising_root([c1, c2, c3]: [f64; 3], value: f64) -> f64 {
+    // Not before the root, and by less than half of it behind: where any one term alone would reach the value.
+    let mut s = 1.0001 * near_cube_root(value / c3);
+    for alone in [1.0001 * (value / c2).sqrt(), value / c1] {
+        s = if alone < s { alone } else { s };
+    }
+    // From there Halley's method comes down, three digits for each that it has.
+    for _ in 0..MOST_STEPS {
+        let (rest, slope, bend) =
+            (s * (c1 + s * (c2 + s * c3)) - value, c1 + s * (2.0 * c2 + s * (3.0 * c3)), c2 + s * (3.0 * c3));
+        let step = rest * slope / (slope * slope - rest * bend);
+        s -= step;
+        let is_near = step.abs() <= 1e-6 * s;
+        if is_near || step.is_nan() {
+            break;
+        }
+    }
+    s
+}
+
+/// ∛x of a positive number to a few ulp, by multiplications and divisions only.
+#[must_use]
+#[inline]
+pub fn cube_root(x: f64) -> f64 {
+    // Beyond the normal numbers the first guess is none.
+    if !(f64::MIN_POSITIVE..=f64::MAX / 8.0).contains(&x) {
+        return libm::cbrt(x);
+    }
+    let near = near_cube_root(x);
+    // 1/∛r for r near 1 to 23 bits, as FreeBSD's `cbrt` has it; then Halley's method once.
+    let r = near * near * (near / x);
+    let [p0, p1, p2, p3, p4] = INVERSE_CUBE_ROOT;
+    let root = near * ((p0 + r * (p1 + r * p2)) + (r * r * r) * (p3 + r * p4));
+    let cube = root * root * root;
+    root * ((cube + 2.0 * x) / (2.0 * cube + x))
+}
+
+/// ∛x to 4 %, a third of the exponent and of the fraction with it (W. Kahan).
+#[inline]
+fn near_cube_root(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() / 3 + CUBE_ROOT_OF_ONE)
+}
+
+const INVERSE_CUBE_ROOT: [f64; 5] = [
+    1.875_951_824_271_770_1,
+    -1.884_979_795_433_771_7,
+    1.621_429_720_105_354_5,
+    -0.758_397_934_778_766,
+    0.145_996_192_886_612_45,
+];
+
+/// Two thirds of the bits of 1, less what makes the error smallest.
+const CUBE_ROOT_OF_ONE: u64 = 0x2A9F_7893_0000_0000;
 
 /// The s > 0 at which a cubic (c₃ ≠ 0) that is positive just right of 0 turns negative.
 fn first_fall(p: [f64; 4]) -> Option<f64> {

@@ -2,7 +2,7 @@
 
 use super::engine::Qss;
 use sophy_field::{Block, Equations, Jet, SourceIndex};
-use sophy_segment::cubic_leaves;
+use sophy_segment::{cube_root, cubic_leaves};
 
 /// What a rate does that its segment leaves out.
 #[derive(Clone, Copy, Debug)]
@@ -45,8 +45,8 @@ impl Bend {
         }
         let (alone, shared) = match ORDER {
             1 => (room.sqrt(), room / coasted),
-            2 => (libm::cbrt(room), (room / coasted).sqrt()),
-            _ => (room.sqrt().sqrt(), libm::cbrt(room / coasted)),
+            2 => (cube_root(room), (room / coasted).sqrt()),
+            _ => (room.sqrt().sqrt(), cube_root(room / coasted)),
         };
         alone.min(shared).min(trust)
     }

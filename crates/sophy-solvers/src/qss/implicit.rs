@@ -18,6 +18,7 @@
 
 use super::engine::Qss;
 use sophy_field::Equations;
+use sophy_segment::rising_root;
 
 /// The rate of a state along its quantised trajectory: a·q + u.
 #[derive(Clone, Copy, Debug)]
@@ -84,33 +85,11 @@ impl Linear {
         let delta = quantum.copysign(a * a * a * x + drift);
         let start = x + delta;
         let g = 0.5 * (a * a * a * start + drift) / delta;
-        let y = positive_root([(2.0 * SWING + 1.0) * a * a, -12.0 * SWING * a, 24.0 * SWING], g);
+        let y = rising_root([(2.0 * SWING + 1.0) * a * a, -12.0 * SWING * a, 24.0 * SWING], g);
         let slope = a * start + u - (4.0 * SWING + 2.0) * delta * y;
         [start, slope, 0.5 * (a * slope + u1) + 12.0 * SWING * delta * y * y]
     }
 }
-
-/// The root of c₁y + c₂y² + c₃y³ = g, all of which are positive, or c₁ and c₂ 0.
-///
-/// The polynomial is convex: Newton's method comes down from where any one term alone would be g.
-fn positive_root([c1, c2, c3]: [f64; 3], g: f64) -> f64 {
-    let mut y = libm::cbrt(g / c3);
-    for alone in [(g / c2).sqrt(), g / c1] {
-        y = if alone < y { alone } else { y };
-    }
-    for _ in 0..MOST_STEPS {
-        let next = y - (y * (c1 + y * (c2 + y * c3)) - g) / (c1 + y * (2.0 * c2 + y * (3.0 * c3)));
-        // Rounding stops it.
-        if next >= y || next.is_nan() {
-            break;
-        }
-        y = next;
-    }
-    y
-}
-
-/// From above, Newton's method takes fewer than ten.
-const MOST_STEPS: u32 = 32;
 
 impl<const ORDER: usize> Qss<ORDER> {
     /// Value and slope of the next quantised trajectory of a state whose own rate pulls it back; `None` if it does not.

@@ -1,7 +1,7 @@
 //! A record of memory as this engine keeps it: x, its start, q, its start, and the quantum.
 
 use sophy_field::{Jet, RecordLayout};
-use sophy_segment::cubic_leaves;
+use sophy_segment::{cube_root, cubic_leaves};
 
 /// What stands where in the records of an order.
 pub(super) struct Place<const ORDER: usize>;
@@ -111,6 +111,16 @@ pub(super) fn leaves<const ORDER: usize>([x0, x1, x2, x3]: Jet, [q0, q1, q2]: [f
         return cubic_leaves([x0 - q0, x1 - q1, x2 - q2, x3], quantum);
     }
     parabola_leaves([x0 - q0, x1 - q1, x2], quantum)
+}
+
+/// The same where q has just taken all coefficients of x but the highest.
+#[inline]
+pub(super) fn leaves_from_middle<const ORDER: usize>([_, x1, x2, x3]: Jet, quantum: f64) -> f64 {
+    match ORDER {
+        1 => quantum / x1.abs(),
+        2 => 2.0 * quantum / (4.0 * x2.abs() * quantum).sqrt(),
+        _ => cube_root(quantum / x3.abs()),
+    }
 }
 
 /// The same, to be written.

@@ -3,7 +3,7 @@
 
 use super::bend::STRAIGHT;
 use super::engine::{Failed, Qss};
-use super::record::leaves;
+use super::record::{leaves, leaves_from_middle};
 use sophy_field::{Block, Entry, Equations, Fault, Jet, Journal, NOW, RowResult, StateIndex};
 
 /// How often a slot may be scheduled at its own instant.
@@ -48,7 +48,11 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
         }
         // Its own rate, if it was among them, has scheduled it already.
-        if self.agenda.time(i as u32) <= t {
+        let evaluated = self.record(i).tx();
+        if evaluated < t && !self.settings.implicit {
+            // q is x now, up to the highest coefficient.
+            self.due_in(i, t, evaluated, leaves_from_middle::<ORDER>(x, quantum));
+        } else if self.agenda.time(i as u32) <= t {
             self.schedule(i, t);
         }
         Ok(())
