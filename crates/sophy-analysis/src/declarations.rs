@@ -248,6 +248,8 @@ pub struct ParameterDeclaration {
     pub name: Spanned<String>,
     /// What it means; empty if nothing was said.
     pub documentation: String,
+    /// Its type, if it is a constant of a file that says so.
+    pub kind: Option<TypeText>,
     /// Its value.
     pub value: ExpressionText,
     /// Its unit.
@@ -530,7 +532,7 @@ pub struct MemberDeclaration {
     /// What it is a copy of.
     pub component: Spanned<String>,
     /// Values of its parameters.
-    pub parameters: Vec<(Spanned<String>, ExpressionText)>,
+    pub parameters: Vec<ParameterDeclaration>,
     /// Extents of an array.
     pub extents: Vec<ExpressionText>,
 }

@@ -131,6 +131,7 @@ pub(crate) fn read(text: &str) -> (Sources, Declarations) {
                 d.parameters.push(ParameterDeclaration {
                     name: target.name,
                     documentation: String::new(),
+                    kind: None,
                     value: right,
                     unit: None,
                 });

@@ -326,6 +326,8 @@ pub struct Discrete {
     pub emissions: Vec<Emission>,
     /// Outputs and locals after an execution, each after those it reads.
     pub values: Vec<Equation>,
+    /// Equations that are solved at every execution, for what has no other.
+    pub constraints: Vec<Constraint>,
 }
 
 /// When a discrete-time component executes.

@@ -284,6 +284,10 @@ impl Text<'_> {
         for equation in &discrete.values {
             writeln!(f, "  {} = {}", self.name(equation.variable), self.expression(equation.right))?;
         }
+        for constraint in &discrete.constraints {
+            let (left, right) = (self.expression(constraint.left), self.expression(constraint.right));
+            writeln!(f, "  constraint {left} = {right}")?;
+        }
         Ok(())
     }
 

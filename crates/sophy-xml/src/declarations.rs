@@ -44,6 +44,7 @@ impl Reader<'_> {
         ParameterDeclaration {
             name: self.attribute_name(element, "symbol"),
             documentation: String::new(),
+            kind: None,
             value: self.expression(&element.text()),
             unit: None,
         }

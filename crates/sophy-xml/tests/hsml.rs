@@ -515,6 +515,7 @@ fn declared((locations, texts, head, units, formulas, tail): Parts) -> Shown {
         component.parameters.push(ParameterDeclaration {
             name: spanned(name),
             documentation,
+            kind: None,
             value: formula(),
             unit: None,
         });

@@ -131,7 +131,7 @@ fn knob() -> impl Strategy<Value = KnobDeclaration> {
 
 fn declarations() -> impl Strategy<Value = Declarations> {
     let constant = (name(), documentation(), formula()).prop_map(|(name, documentation, value)| {
-        ParameterDeclaration { name, documentation, value, unit: None }
+        ParameterDeclaration { name, documentation, kind: None, value, unit: None }
     });
     let function = (identifier(), documentation(), list(identifier()), formula()).prop_map(
         |(name, documentation, parameters, body)| FunctionDeclaration {

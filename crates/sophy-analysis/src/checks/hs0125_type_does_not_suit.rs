@@ -16,6 +16,16 @@ pub(crate) fn variable(kind: &str, what: &str, span: Span) -> Diagnostic {
     Diagnostic::error(CODE, span, format!("{what} cannot have the type `{kind}`")).help(help)
 }
 
+/// A `real` output of a continuous-time component varies continuously; `equation` is what defines it, if it is no state.
+pub(crate) fn continuous(name: &str, kind: Span, equation: Option<Span>) -> Diagnostic {
+    let message = format!("output `{name}` varies continuously, but `real` is what changes at instants only");
+    let error = Diagnostic::error(CODE, kind, message).help("write `signal`");
+    match equation {
+        Some(equation) => error.label(equation, "this varies continuously"),
+        None => error,
+    }
+}
+
 /// A discrete-time or logic component has an output that is a signal.
 pub(crate) fn output(component: ComponentKind, name: &str, span: Span) -> Diagnostic {
     let message = format!(

@@ -30,11 +30,6 @@ pub(crate) fn section(kind: ComponentKind, section: &str, suits: &str, span: Spa
     Diagnostic::error(CODE, span, message).help(format!("move it to {suits}, or make this component one"))
 }
 
-pub(crate) fn discrete_constraints(span: Span) -> Diagnostic {
-    Diagnostic::error(CODE, span, "a DTC has no `constraints` section: it computes, and solves nothing")
-        .help("solve it for the unknown and write `NAME = …;` in `output`, or move it to a CTC")
-}
-
 pub(crate) fn system_input(name: &str, span: Span) -> Diagnostic {
     Diagnostic::error(CODE, span, format!("a SYSTEM has no inputs: `{name}`"))
         .help("add a component that generates the signal and connect it, or write `CC` instead of `SYSTEM`")

@@ -22,6 +22,8 @@ pub(crate) fn out_of_range(span: Span, what: &str, number: f64) -> Diagnostic {
     let range = match what {
         "a probability" => "between 0 and 1",
         "a standard deviation" => "0 or more",
+        "the delay of a rule" | "`tdelay`" => "0 s or more",
+        "a rate" => "0 or more, in 1/s",
         _ => "more than 0 s",
     };
     Diagnostic::error(CODE, span, format!("{what} cannot be {number}")).help(format!("it must be {range}"))

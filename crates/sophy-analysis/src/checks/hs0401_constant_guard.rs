@@ -3,7 +3,7 @@
 
 use crate::component::{BuiltLocation, BuiltTransition};
 use crate::declarations::TriggerDeclaration;
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
+use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Span};
 use sophy_ir::{Graph, Node};
 
 pub(crate) const CODE: Code = Code("HS0401");
@@ -11,12 +11,22 @@ pub(crate) const CODE: Code = Code("HS0401");
 pub(crate) fn find(locations: &[BuiltLocation<'_>], graph: &Graph, diagnostics: &mut Diagnostics) {
     for location in locations {
         for transition in &location.transitions {
+            let without = location.declaration.is_some_and(|l| l.invariant.is_none());
+            if let (TriggerDeclaration::Invariant(span, _), true) = (&transition.declaration.trigger, without)
+            {
+                diagnostics.push(without_invariant(&transition.declaration.name.value, *span));
+            }
             if let Some(Node::Boolean(value)) = transition.guard.map(|guard| graph.node(guard)) {
                 let name = location.declaration.map_or("", |l| l.name.value.as_str());
                 diagnostics_of(name, transition, value, diagnostics);
             }
         }
     }
+}
+
+fn without_invariant(transition: &str, span: Span) -> Diagnostic {
+    Diagnostic::warning(CODE, span, format!("`{transition}` is never taken: its location has no invariant"))
+        .help("write `invariant CONDITION;` in the location, or `when CONDITION` in place of `on invariant`")
 }
 
 fn diagnostics_of(

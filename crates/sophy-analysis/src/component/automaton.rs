@@ -4,14 +4,15 @@ use super::statements::Setting;
 use super::variables::Interface;
 use crate::checks::{
     hs0105_unknown_initial_value, hs0108_defined_twice, hs0132_unknown_event, hs0136_event_section,
-    hs0303_algebraic_loop,
+    hs0209_units, hs0220_wrong_argument, hs0303_algebraic_loop,
 };
 use crate::declarations::{
     ComponentKind, Dialect, EventDeclaration, ExpressionText, LocationDeclaration, RuleDeclaration, Spanned,
     Statement, TransitionDeclaration, TriggerDeclaration,
 };
 use crate::dependency_order::dependency_order;
-use crate::lower::{Place, SymbolKind, SymbolValue};
+use crate::lower::{Place, SymbolKind, SymbolValue, names_in};
+use crate::units::{Measured, Unit};
 use sophy_diagnostics::Span;
 use sophy_ir::{
     Actions, Assignment, Constraint, Equation, EventSection, HybridAutomaton, Leaf, Location, Node, NodeId,
@@ -64,6 +65,7 @@ impl<'a> Builder<'_, 'a> {
         let written: Vec<Option<&'a LocationDeclaration>> =
             if has_locations { declaration.locations.iter().map(Some).collect() } else { vec![None] };
         let mut built = Vec::with_capacity(written.len());
+        let mut unheld = BTreeMap::new();
         for (position, location) in written.into_iter().enumerate() {
             self.symbols.enter_location(location.map(|_| position));
             let place = location.map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
@@ -79,6 +81,7 @@ impl<'a> Builder<'_, 'a> {
                 let span = self.variables[output.0 as usize].span.unwrap_or(declaration.name.span);
                 defined.values.insert(output, Definition { right, span, target: span });
             }
+            self.find_unheld(&defined, &mut unheld);
             let values = self.sorted(&defined, &constraints, &place);
             let invariant = location
                 .and_then(|location| location.invariant.as_ref())
@@ -95,15 +98,20 @@ impl<'a> Builder<'_, 'a> {
             });
         }
         self.symbols.enter_location(None);
+        self.report_unheld(unheld);
         built
     }
 
-    fn constraints(&mut self, written: &'a [crate::declarations::ConstraintDeclaration]) -> Vec<Constraint> {
+    pub(crate) fn constraints(
+        &mut self,
+        written: &'a [crate::declarations::ConstraintDeclaration],
+    ) -> Vec<Constraint> {
         let mut constraints = Vec::new();
         for constraint in written {
             let left = self.at(Place::EQUATION).value(&constraint.left);
             let Some(left) = left else {
                 self.at(Place::EQUATION).value(&constraint.right);
+                self.misread(constraint);
                 continue;
             };
             let expected = crate::lower::Expected {
@@ -115,6 +123,7 @@ impl<'a> Builder<'_, 'a> {
                 span: Some(constraint.left.span),
             };
             let Some(right) = self.at(Place::EQUATION).value_for(&constraint.right, &expected) else {
+                self.misread(constraint);
                 continue;
             };
             let pairs = left.elements.as_slice().iter().zip(right.elements.as_slice());
@@ -122,6 +131,11 @@ impl<'a> Builder<'_, 'a> {
             constraints.extend(pairs.map(|(&left, &right)| Constraint { left, right, span }));
         }
         constraints
+    }
+
+    fn misread(&mut self, constraint: &crate::declarations::ConstraintDeclaration) {
+        self.constrained.extend(names_in(&constraint.left));
+        self.constrained.extend(names_in(&constraint.right));
     }
 
     /// Equations of outputs, locals and flags, each after those it reads; a circle is an algebraic loop.
@@ -203,7 +217,7 @@ impl<'a> Builder<'_, 'a> {
                 self.when_or_on(written_guard.is_some(), guard, events)
             }
             TriggerDeclaration::Rate(rate, _) => {
-                let rate = self.at(Place::EQUATION).scalar(rate).and_then(|rate| rate.node());
+                let rate = self.per_second(rate);
                 rate.filter(|_| usable(guard)).map(|rate| Trigger::Rate { rate, guard }).into_iter().collect()
             }
             TriggerDeclaration::Invariant(..) => vec![Trigger::Invariant { guard }],
@@ -373,7 +387,7 @@ impl<'a> Builder<'_, 'a> {
 
     fn rule(&mut self, written: &'a RuleDeclaration) -> Option<Rule> {
         let condition = self.at(Place::INSTANT).condition(&written.condition);
-        let delay = written.delay.as_ref().map(|delay| self.seconds(delay, "a delay"));
+        let delay = written.delay.as_ref().map(|delay| self.seconds(delay, "the delay of a rule"));
         let fallback = self.component_priority();
         let priority = self.whole_number(written.priority.as_ref(), "a priority", fallback);
         let setting = Setting {
@@ -409,7 +423,26 @@ impl<'a> Builder<'_, 'a> {
             what: what.to_owned(),
             span: None,
         };
-        self.at(Place::EQUATION).value_for(text, &expected)?.node()
+        let node = self.at(Place::EQUATION).value_for(text, &expected)?.node()?;
+        self.check_not_negative(node, what, text);
+        Some(node)
+    }
+
+    fn check_not_negative(&mut self, node: NodeId, what: &str, text: &ExpressionText) {
+        if let Some(number) = self.known_value(node).filter(|&number| number < 0.0) {
+            self.report(hs0220_wrong_argument::out_of_range(text.span, what, number));
+        }
+    }
+
+    /// The rate of a Poisson transition, 1/s.
+    fn per_second(&mut self, text: &'a ExpressionText) -> Option<NodeId> {
+        let value = self.at(Place::EQUATION).scalar(text)?;
+        if let Err(mismatch) = value.measured.agree(Measured::Known(Unit::SECOND).rate().rate()) {
+            self.report(hs0209_units::required(text.span, "a rate", mismatch));
+        }
+        let node = value.node()?;
+        self.check_not_negative(node, "a rate", text);
+        Some(node)
     }
 
     /// The `initial` section. What depends on parameters only becomes a declared value; the rest is sorted.

@@ -55,6 +55,8 @@ pub(crate) struct Builder<'b, 'a> {
     pub(crate) suggested: BTreeSet<String>,
     /// What equations of a discrete-time component define.
     pub(crate) defined_values: BTreeSet<VariableId>,
+    /// What constraints with mistakes read: they may have been meant to determine it.
+    pub(crate) constrained: BTreeSet<String>,
 }
 
 impl<'b, 'a> Builder<'b, 'a> {
@@ -81,6 +83,7 @@ impl<'b, 'a> Builder<'b, 'a> {
             with_equation: equation_names(declaration).into_keys().collect(),
             suggested: BTreeSet::new(),
             defined_values: BTreeSet::new(),
+            constrained: BTreeSet::new(),
         }
     }
 

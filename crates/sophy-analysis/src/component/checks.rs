@@ -1,6 +1,7 @@
 use super::automaton::BuiltLocation;
 use super::builder::{Builder, Shared};
-use super::matching::match_constraints;
+use super::equations::Defined;
+use super::matching::{Matched, match_constraints};
 use super::statements::{assigned_by, assigned_names, defined_by, equation_names};
 use crate::checks::{
     hs0101_unknown_name, hs0102_equation_for_undeclared_state, hs0103_reset_of_undeclared_state,
@@ -9,8 +10,8 @@ use crate::checks::{
     hs0112_location_declared_twice, hs0113_transition_declared_twice, hs0114_unknown_destination,
     hs0115_unknown_initial_location, hs0116_unreachable_location, hs0117_hidden_name, hs0118_unused,
     hs0119_no_location, hs0127_declaration_for_another_kind, hs0143_local_without_equation,
-    hs0144_flag_without_event, hs0146_assigned_by_two, hs0201_unknown_function, hs0206_natural_logarithm,
-    hs0401_constant_guard, hs0402_taken_on_entry, hs0403_round_without_time,
+    hs0144_flag_without_event, hs0145_constrained, hs0146_assigned_by_two, hs0201_unknown_function,
+    hs0206_natural_logarithm, hs0401_constant_guard, hs0402_taken_on_entry, hs0403_round_without_time,
 };
 use crate::declarations::{
     ComponentKind, Dialect, FunctionDeclaration, LocationDeclaration, ParameterDeclaration,
@@ -18,7 +19,9 @@ use crate::declarations::{
 };
 use crate::lower::{Symbol, SymbolKind, SymbolValue};
 use sophy_diagnostics::{Diagnostics, Span};
-use sophy_ir::{Actions, Binary, EventSection, Leaf, Node, NodeId, Rule, Special, VariableId, VariableKind};
+use sophy_ir::{
+    Actions, Binary, Constraint, EventSection, Leaf, Node, NodeId, Rule, Special, VariableId, VariableKind,
+};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Something that is defined or assigned although it cannot be.
@@ -130,7 +133,7 @@ impl Builder<'_, '_> {
             ("components", "a CC or SYSTEM", !composite, member),
             ("connections", "a CC or SYSTEM", !composite, connection),
             ("dynamics", "a CTC", d.kind != Ctc, dynamics),
-            ("constraints", "a CTC", composite || d.kind == Lbc, constraint),
+            ("constraints", "a CTC or DTC", composite || d.kind == Lbc, constraint),
             ("output", "a CTC, DTC or LBC", composite, output),
             ("update", "a DTC", d.kind != Dtc, update),
             ("initial", "a CTC, DTC or LBC", composite, (!d.initial.is_empty()).then_some(place)),
@@ -139,9 +142,6 @@ impl Builder<'_, '_> {
             if let (true, Some(span)) = (is_wrong, span) {
                 self.report(hs0127_declaration_for_another_kind::section(d.kind, section, suits, span));
             }
-        }
-        if let (Some(span), Dtc) = (constraint, d.kind) {
-            self.report(hs0127_declaration_for_another_kind::discrete_constraints(span));
         }
         let equations = equation_names(d);
         for (name, at) in assigned_names(d) {
@@ -180,6 +180,7 @@ impl Builder<'_, '_> {
         let declaration = self.declaration;
         let mut meant: BTreeSet<String> =
             locations.iter().flat_map(|l| l.defined.meant.iter().cloned()).collect();
+        meant.append(&mut self.constrained);
         self.check_strays(locations, &mut meant);
         let mut found = Diagnostics::default();
         for diagnostic in hs0106_unit_for_unknown_name::find(declaration, &self.symbols) {
@@ -447,13 +448,13 @@ impl Builder<'_, '_> {
                     self.lives_in(id, position) && !defined && !only_assigned
                 })
                 .collect();
-            let matched = match_constraints(&self.graph, &location.defined, &location.constraints, &lacking);
+            let matched = self.matched(&location.defined, &location.constraints, &lacking);
             for &constraint in &matched.superfluous {
                 let span = location.constraints[constraint].span.unwrap_or(self.declaration.name.span);
                 let place = location
                     .declaration
                     .map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
-                found.push(crate::checks::hs0145_constrained::too_many(span, &place));
+                found.push(hs0145_constrained::too_many(span, &place));
             }
             for id in matched.undetermined {
                 let place = location.declaration.map(|l| (l.name.value.clone(), l.name.span));
@@ -496,22 +497,33 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Outputs of a discrete-time component have an equation or are assigned; so have locals.
-    pub(crate) fn check_discrete(&mut self) {
-        let mut meant = BTreeSet::new();
+    fn matched(&self, defined: &Defined, constraints: &[Constraint], unknowns: &[VariableId]) -> Matched {
+        let is_state = |id: VariableId| matches!(self.variables[id.0 as usize].kind, VariableKind::State(_));
+        match_constraints(&self.graph, defined, constraints, unknowns, is_state)
+    }
+
+    /// Outputs and locals of a discrete-time component have an equation or are assigned, or a constraint determines
+    /// them.
+    pub(crate) fn check_discrete(&mut self, constraints: &[Constraint]) {
+        let mut meant = std::mem::take(&mut self.constrained);
         self.check_strays(&[], &mut meant);
         let assigned: BTreeSet<String> =
             assigned_names(self.declaration).into_keys().map(str::to_owned).collect();
         let defined: BTreeSet<VariableId> = self.defined_values.clone();
         let mut seen = BTreeSet::new();
-        for id in self.ids_of(|kind| matches!(kind, VariableKind::Local | VariableKind::Output)) {
+        let mut lacking = self.ids_of(|kind| matches!(kind, VariableKind::Local | VariableKind::Output));
+        lacking.retain(|&id| {
+            let base = self.base(id);
+            !(defined.contains(&id) || meant.contains(base) || assigned.contains(base))
+        });
+        let matched = self.matched(&Defined::default(), constraints, &lacking);
+        for constraint in matched.superfluous {
+            let span = constraints[constraint].span.unwrap_or(self.declaration.name.span);
+            self.report(hs0145_constrained::too_many(span, ""));
+        }
+        for id in matched.undetermined {
             let variable = &self.variables[id.0 as usize];
-            let base = variable.name.split('[').next().unwrap_or("").to_owned();
-            if defined.contains(&id)
-                || meant.contains(&base)
-                || assigned.contains(&base)
-                || !seen.insert(base)
-            {
+            if !seen.insert(self.base(id).to_owned()) {
                 continue;
             }
             let kind =

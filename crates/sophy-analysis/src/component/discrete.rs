@@ -30,7 +30,9 @@ impl<'a> Builder<'_, 'a> {
                 self.defined_values.extend(Builder::elements(symbol.first, symbol.shape.len()));
             }
         }
-        let values = self.sorted(&defined, &[], "");
+        let constraints = self.constraints(&declaration.equations.constraints);
+        let values = self.sorted(&defined, &constraints, "");
+        self.check_discrete(&constraints);
         let clock = self.clock(&actions.assignments);
         if declaration.clock.is_none() {
             self.report(hs0137_no_clock::diagnostic(&declaration.name));
@@ -46,6 +48,7 @@ impl<'a> Builder<'_, 'a> {
             update: actions.assignments,
             emissions: actions.emissions,
             values,
+            constraints,
         })
     }
 

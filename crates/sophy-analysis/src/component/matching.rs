@@ -21,6 +21,7 @@ pub(crate) fn match_constraints(
     defined: &Defined,
     constraints: &[Constraint],
     unknowns: &[VariableId],
+    is_state: impl Fn(VariableId) -> bool,
 ) -> Matched {
     if constraints.is_empty() {
         return Matched { undetermined: unknowns.to_vec(), superfluous: Vec::new() };
@@ -39,7 +40,7 @@ pub(crate) fn match_constraints(
             }
             let rate = defined.rates.get(&id);
             let value = defined.values.get(&id);
-            if wanted.contains(&id) || (rate.is_none() && value.is_none()) {
+            if wanted.contains(&id) || (rate.is_none() && value.is_none() && is_state(id)) {
                 found.push(id);
             }
             let nodes = rate.into_iter().chain(value).filter_map(|definition| definition.right);

@@ -7,6 +7,7 @@ mod checks;
 mod discrete;
 mod equations;
 mod exclusion;
+mod held;
 mod matching;
 mod parameters;
 mod statements;
@@ -53,7 +54,6 @@ pub(crate) fn build<'a>(
     let body = match declaration.kind {
         ComponentKind::Dtc => {
             let discrete = builder.discrete(&interface);
-            builder.check_discrete();
             discrete.map(Body::Discrete)
         }
         _ => {

@@ -1,7 +1,7 @@
 use super::builder::{Builder, GivenValue};
 use crate::checks::{
     hs0107_declared_twice, hs0108_defined_twice, hs0123_knob_without_value, hs0149_name_with_a_bracket,
-    hs0301_circular_constants,
+    hs0209_units, hs0301_circular_constants,
 };
 use crate::declarations::{
     Dialect, ExpressionText, KnobDeclaration, ParameterDeclaration, RangeText, Spanned,
@@ -184,12 +184,19 @@ impl<'a> Builder<'_, 'a> {
         };
         let xml = self.declaration.dialect == Dialect::Xml;
         let place = if xml { Place { what: "a constant", ..Place::PARAMETER } } else { Place::PARAMETER };
-        let Some(value) = self.at(place).value(&written.value) else { return };
+        let Some(mut value) = self.at(place).value(&written.value) else { return };
         if !is_first {
             return;
         }
-        let unit = written.unit.as_ref().or(parameter.knob.and_then(|knob| knob.unit.as_ref()));
-        let measured = self.measured_in(unit, &value);
+        let of_knob = parameter.knob.and_then(|knob| knob.unit.as_ref());
+        let unit = of_knob.or(written.unit.as_ref());
+        self.written_unit(written.unit.as_ref(), &mut value, name);
+        let declared = self.measured(of_knob);
+        if let (Some(knob), Err(mismatch)) = (of_knob, value.measured.agree(declared)) {
+            let what = format!("knob `{}`", name.value);
+            self.report(hs0209_units::assigned(written.value.span, &what, Some(knob.span), mismatch));
+        }
+        let measured = self.measured_in(declared, &value);
         let quantity = if value.quantity == Quantity::Integer { Quantity::Real } else { value.quantity };
         let value = self.as_stored(value);
         // Texts read nothing.

@@ -346,7 +346,13 @@ impl<'a> Builder<'_, 'a> {
             let Leaf::Variable(id) = leaf else { continue };
             let Some(variable) = self.variables.get(id.0 as usize) else { continue };
             let base = self.symbols.declared_as(id).unwrap_or(&variable.name);
-            if variable.kind == VariableKind::Local && !self.with_equation.contains(base) {
+            // What an update assigns to a local lasts to the next one, for the output equations only.
+            let held = matches!(variable.kind, VariableKind::Mode(_)) && self.is_held_local(base) && {
+                let declared = self.declaration.variables.iter().find(|v| v.name.value == base);
+                declared.is_some_and(|v| v.role == crate::declarations::VariableRole::Local)
+            };
+            let nothing = variable.kind == VariableKind::Local && !self.with_equation.contains(base);
+            if nothing || held {
                 let (name, declared) = (variable.name.clone(), variable.span);
                 self.report(hs0147_read_before_assigned::diagnostic(&name, at, declared));
             }

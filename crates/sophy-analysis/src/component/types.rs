@@ -1,5 +1,5 @@
 use super::builder::Builder;
-use crate::checks::{hs0120_unknown_type, hs0121_extent, hs0122_unit, hs0126_out_of_range};
+use crate::checks::{hs0120_unknown_type, hs0121_extent, hs0122_unit, hs0126_out_of_range, hs0209_units};
 use crate::declarations::{Dialect, RangeText, Spanned, TypeText};
 use crate::lower::{Elements, Place, Shape, Typed};
 use crate::units::{self, Measured};
@@ -122,12 +122,27 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// The unit of a parameter: the declared one, else that of its value if it is more than a number.
-    pub(crate) fn measured_in(&mut self, unit: Option<&Spanned<String>>, value: &Typed) -> Measured {
-        match (unit, &value.measured) {
-            (None, Measured::Known(known)) => Measured::Known(*known),
-            (None, _) => Measured::Unchecked,
-            (Some(_), _) => self.measured(unit),
+    pub(crate) fn measured_in(&self, declared: Measured, value: &Typed) -> Measured {
+        match (declared, value.measured) {
+            (Measured::Unchecked, Measured::Known(known)) => Measured::Known(known),
+            (declared, _) => declared,
         }
+    }
+
+    /// A value gets the unit that is written behind it; says so if it has another one.
+    pub(crate) fn written_unit(
+        &mut self,
+        unit: Option<&Spanned<String>>,
+        value: &mut Typed,
+        name: &Spanned<String>,
+    ) {
+        let Some(written) = unit else { return };
+        let measured = self.measured(unit);
+        if let Err(mismatch) = value.measured.agree(measured) {
+            let what = format!("the value of `{}`", name.value);
+            self.report(hs0209_units::assigned(written.span, &what, None, mismatch));
+        }
+        value.measured = measured;
     }
 
     /// The unit as written, from the declaration or from what is said apart.

@@ -1,8 +1,9 @@
 use super::builder::Builder;
-use super::statements::assigned_names;
+use super::statements::{assigned_by, assigned_names};
 use super::types::{PortType, Range};
 use crate::checks::{
     hs0124_unknown_view, hs0125_type_does_not_suit, hs0127_declaration_for_another_kind, hs0128_port_differs,
+    hs0209_units,
 };
 use crate::declarations::{
     ClockDeclaration, ComponentKind, Dialect, Direction, PortDeclaration, RangeText, Spanned, Statement,
@@ -11,7 +12,7 @@ use crate::declarations::{
 use crate::lower::{Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, VariableSymbol, Varies};
 use crate::units::Measured;
 use sophy_diagnostics::Span;
-use sophy_ir::{EventPort, Quantity, Variable, VariableId, VariableKind};
+use sophy_ir::{Allowed, EventPort, Quantity, Variable, VariableId, VariableKind};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
@@ -371,6 +372,12 @@ impl<'a> Builder<'_, 'a> {
                 // What one of the two declarations leaves out, the other may say.
                 if let Some(own) = own {
                     self.compare_with_own(port, (kind, shape), own, &symbol);
+                    if let Err(mismatch) = symbol.measured.agree(declared.measured) {
+                        let what = format!("output `{}`", name.value);
+                        let port = port.unit.as_ref().map(|unit| unit.span);
+                        let own = own.unit.as_ref().map_or(own.name.span, |unit| unit.span);
+                        self.report(hs0209_units::assigned(own, &what, port, mismatch));
+                    }
                     if declared.unit.is_none() {
                         declared.unit = own.unit.as_ref().map(|unit| unit.value.clone());
                         declared.measured = symbol.measured;
@@ -567,6 +574,31 @@ impl<'a> Builder<'_, 'a> {
             self.initial_value(name, initial, None);
         }
         self.resting_states();
+        self.first_of_sets();
+    }
+
+    /// A mode that nothing initialises starts with the first value of its set, unless a flag says which.
+    fn first_of_sets(&mut self) {
+        let sections = self.declaration.events.iter().flat_map(|event| [&event.rising, &event.falling]);
+        let by_flags = assigned_by(sections.flatten().flatten().collect());
+        for position in 0..self.variables.len() {
+            let variable = &self.variables[position];
+            if !matches!(variable.kind, VariableKind::Mode(None)) {
+                continue;
+            }
+            let base = variable.name.split('[').next().unwrap_or("");
+            let first = match (&variable.range, variable.choices.first()) {
+                (_, Some(&choice)) => choice as f64,
+                (Some(Allowed::OneOf(numbers)), None) if !by_flags.contains_key(base) => {
+                    match numbers.first() {
+                        Some(&number) => number,
+                        None => continue,
+                    }
+                }
+                _ => continue,
+            };
+            self.variables[position].kind = VariableKind::Mode(Some(self.graph.number(first)));
+        }
     }
 
     /// The location that a run starts in.

@@ -4,7 +4,9 @@ use crate::checks::{
     hs0139_unknown_parameter, hs0140_array_of_components,
 };
 use crate::component::{Builder, Given, GivenValue};
-use crate::declarations::{ComponentKind, ExpressionText, MemberDeclaration, MemberItem, Spanned};
+use crate::declarations::{
+    ComponentKind, ExpressionText, MemberDeclaration, MemberItem, ParameterDeclaration, Spanned,
+};
 use crate::lower::{Expected, Place, Shape, Symbol, SymbolKind, SymbolValue, Typed};
 use sophy_diagnostics::{Diagnostic, Span};
 use sophy_ir::{Allowed, Class, Graph, Member, NodeId, VariableId};
@@ -234,7 +236,7 @@ fn values<'a>(
 ) -> Vec<Value<'a>> {
     let mut values = Vec::new();
     let mut first: HashMap<&str, Span> = HashMap::new();
-    for (name, text) in &written.parameters {
+    for ParameterDeclaration { name, value: text, unit, .. } in &written.parameters {
         if let Some(&first) = first.get(name.value.as_str()) {
             let what = format!("the value of `{}`", name.value);
             builder.report(hs0108_defined_twice::diagnostic(&what, first, name.span));
@@ -246,8 +248,9 @@ fn values<'a>(
             builder.at(Place::PARAMETER).value(text);
             continue;
         };
+        let Some(mut value) = builder.at(Place::PARAMETER).value(text) else { continue };
+        builder.written_unit(unit.as_ref(), &mut value, name);
         let mut lowering = builder.at(Place::PARAMETER);
-        let Some(value) = lowering.value(text) else { continue };
         let value = match parameter {
             Some(parameter) => {
                 let shape = of_its_own(parameter.shape, value.shape);

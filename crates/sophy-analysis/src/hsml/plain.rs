@@ -29,7 +29,7 @@ plain_fields! {
     TypeText: name shape;
     PortDeclaration: name documentation direction kind range unit;
     KnobDeclaration: name documentation range unit;
-    ParameterDeclaration: name documentation value unit;
+    ParameterDeclaration: name documentation kind value unit;
     FunctionDeclaration: name documentation parameters result body;
     VariableDeclaration: role name documentation kind range initial unit;
     Equations: dynamics constraints output;

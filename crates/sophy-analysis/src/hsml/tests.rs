@@ -175,7 +175,7 @@ fn knob() -> impl Strategy<Value = KnobDeclaration> {
 
 fn parameter() -> impl Strategy<Value = ParameterDeclaration> {
     (name(), documentation(), expression(), maybe(string())).prop_map(|(name, documentation, value, unit)| {
-        ParameterDeclaration { name, documentation, value, unit }
+        ParameterDeclaration { name, documentation, kind: None, value, unit }
     })
 }
 
@@ -328,15 +328,9 @@ fn rule() -> impl Strategy<Value = RuleDeclaration> {
 }
 
 fn member() -> impl Strategy<Value = MemberItem> {
-    let parts = (
-        name(),
-        list(expression()),
-        documentation(),
-        name(),
-        list((name(), expression())),
-        list(expression()),
-    );
-    let leaf = parts.prop_map(|(name, indices, documentation, component, parameters, extents)| {
+    let parts = (name(), list(expression()), documentation(), name(), list(parameter()), list(expression()));
+    let leaf = parts.prop_map(|(name, indices, documentation, component, mut parameters, extents)| {
+        parameters.iter_mut().for_each(|parameter| parameter.documentation.clear());
         MemberItem::Member(MemberDeclaration { name, indices, documentation, component, parameters, extents })
     });
     leaf.prop_recursive(2, 4, 2, |inner| repeated(inner).prop_map(MemberItem::For))

@@ -140,11 +140,17 @@ impl<'a> Lowering<'_, 'a> {
         }
         let errors = self.findings.diagnostics.count(Severity::Error);
         let mut value = self.value(&constant.value)?;
+        let what = format!("constant `{}`", constant.name.value);
+        if let Some(kind) = &constant.kind {
+            let measured = value.measured;
+            let expected = self.expected(Some(kind), what.clone(), kind.name.span)?;
+            value = self.fit(value, constant.value.span, &expected)?;
+            value.measured = measured;
+        }
         if let Some(unit) = &constant.unit
             && let Ok(parsed) = units::parse(&unit.value)
         {
             let measured = Measured::Known(parsed.unit);
-            let what = format!("constant `{}`", constant.name.value);
             let expected = Expected { measured, ..Expected::of(&value, what, Some(unit.span)) };
             value = self.fit(value, constant.value.span, &expected)?;
         }

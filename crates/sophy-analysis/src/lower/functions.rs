@@ -187,7 +187,7 @@ impl<'a> Lowering<'_, 'a> {
     }
 
     /// What a type says; without one it is a single real number.
-    fn expected(&mut self, kind: Option<&TypeText>, what: String, span: Span) -> Option<Expected> {
+    pub(super) fn expected(&mut self, kind: Option<&TypeText>, what: String, span: Span) -> Option<Expected> {
         let (shape, quantity) = match kind {
             Some(kind) => self.declared_type(kind)?,
             None => (Shape::Scalar, Quantity::Real),

@@ -57,6 +57,7 @@ impl Reader<'_> {
                     component.parameters.push(ParameterDeclaration {
                         name: self.name(assignment.name(), &assignment),
                         documentation: assignment.documentation(),
+                        kind: None,
                         value: self.required(assignment.value(), &assignment),
                         unit: self.unit(assignment.unit()),
                     });

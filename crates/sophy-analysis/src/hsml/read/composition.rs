@@ -1,5 +1,5 @@
 use super::reader::Reader;
-use crate::declarations::{ConnectionItem, MemberDeclaration, MemberItem, PortText};
+use crate::declarations::{ConnectionItem, MemberDeclaration, MemberItem, ParameterDeclaration, PortText};
 use sophy_syntax::ast::{ComponentsItem, Compose, Connection, ConnectionsItem, Instance, Port, View};
 
 impl Reader<'_> {
@@ -15,13 +15,19 @@ impl Reader<'_> {
     }
 
     fn member(&mut self, instance: &Instance) -> MemberDeclaration {
-        let arguments = instance.arguments();
-        let parameters = arguments.map(|argument| {
-            (self.name(argument.name(), &argument), self.required(argument.value(), &argument))
-        });
+        let mut parameters = Vec::new();
+        for argument in instance.arguments() {
+            parameters.push(ParameterDeclaration {
+                name: self.name(argument.name(), &argument),
+                documentation: String::new(),
+                kind: None,
+                value: self.required(argument.value(), &argument),
+                unit: self.unit(argument.unit()),
+            });
+        }
         MemberDeclaration {
             name: self.name(instance.name(), instance),
-            parameters: parameters.collect(),
+            parameters,
             indices: self.expressions(instance.indices()),
             documentation: instance.documentation(),
             component: self.name(instance.component(), instance),

@@ -16,6 +16,7 @@ impl Reader<'_> {
                 FileItem::Constant(constant) => declarations.constants.push(ParameterDeclaration {
                     name: self.name(constant.name(), &constant),
                     documentation: constant.documentation(),
+                    kind: self.type_text(constant.declared_type()),
                     value: self.required(constant.value(), &constant),
                     unit: self.unit(constant.unit()),
                 }),

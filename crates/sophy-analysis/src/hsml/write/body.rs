@@ -145,8 +145,9 @@ impl Writer {
         let name = self.name(&member.name) + &self.brackets(&member.indices);
         let component = self.name(&member.component);
         let mut parameters = Vec::new();
-        for (name, value) in &member.parameters {
-            parameters.push(format!("{} : {}", self.name(name), self.expression(value)));
+        for parameter in &member.parameters {
+            let (name, value) = (self.name(&parameter.name), self.expression(&parameter.value));
+            parameters.push(format!("{name} : {value}{}", unit(parameter.unit.as_ref())));
         }
         let parameters =
             if parameters.is_empty() { String::new() } else { format!("({})", parameters.join(", ")) };

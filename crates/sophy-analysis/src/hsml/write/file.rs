@@ -14,7 +14,8 @@ impl Writer {
         for constant in &declarations.constants {
             self.documentation(&constant.documentation);
             let (name, value) = (self.name(&constant.name), self.right_side(&constant.value));
-            self.line(&format!("constant {name} = {value}{};", unit(constant.unit.as_ref())));
+            let kind = self.typed(constant.kind.as_ref());
+            self.line(&format!("constant {name}{kind} = {value}{};", unit(constant.unit.as_ref())));
         }
         self.gap();
         for function in &declarations.functions {
