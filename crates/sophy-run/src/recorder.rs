@@ -5,15 +5,16 @@ use crate::experiment::{Experiment, ExperimentError, matches};
 use crate::grid::Grid;
 use crate::run::Run;
 use rustc_hash::FxHashSet;
-use sophy_field::{Jet, LocationIndex, NOW, Record, SourceIndex, WatchIndex};
-use sophy_ir::{Quantity, System};
+use sophy_field::{AlgebraicIndex, Jet, LocationIndex, NOW, Record, SourceIndex, WatchIndex};
+use sophy_ir::{Leaf, Linearity, NodeId, Quantity, System};
 use sophy_record::{Column, ColumnKind, Row, Schema, Sink, SinkError, Trajectory};
 use sophy_segment::Sign;
 
 /// Turns the journal of a run into rows for sinks, and into a trajectory if one is wanted.
 ///
 /// Rows are given at every event, or on a grid. At a jump there is one row with the values before micro-step
-/// 0 and one after the last; with `microsteps` one after each.
+/// 0 and one after the last; with `microsteps` one after each. An output that is not a straight line between events has
+/// rows in between, at least every 500th of the run.
 #[derive(Debug)]
 pub struct Recorder {
     schema: Schema,
@@ -31,6 +32,11 @@ pub struct Recorder {
     pending: Option<(f64, u32)>,
     last_row: f64,
     stop: f64,
+    /// The longest time between two rows, s.
+    longest: f64,
+    /// A column may jump where a kink is crossed: the row before, and what stands behind, an instant later.
+    kink: bool,
+    before_kink: (Vec<f64>, Vec<u32>),
     values: Vec<f64>,
     label_values: Vec<u32>,
     /// The exact trajectory, if wanted.
@@ -80,9 +86,13 @@ impl Recorder {
             memory: run.compiled().equations.image.clone(),
             grid: experiment.every.map(|step| Grid::new(experiment.start, step)),
             microsteps: experiment.microsteps,
-            pending: None,
+            // The start is a row even if nothing happens there.
+            pending: Some((experiment.start, 0)),
             last_row: f64::NEG_INFINITY,
             stop: experiment.stop,
+            longest: f64::INFINITY,
+            kink: false,
+            before_kink: Default::default(),
             values: Vec::new(),
             label_values: Vec::new(),
             trajectory: None,
@@ -102,7 +112,38 @@ impl Recorder {
                 kind: column.kind.clone(),
             });
         }
+        if recorder.shows_curves(system) {
+            recorder.longest = (experiment.stop - experiment.start) / LEAST_ROWS;
+        }
         Ok(recorder)
+    }
+
+    /// Whether a column can move by more than the steps of states tell.
+    fn shows_curves(&self, system: &System) -> bool {
+        let mut linearity = Linearity::default();
+        for (z, algebraic) in system.algebraics.iter().enumerate() {
+            linearity.algebraic(&system.graph, AlgebraicIndex::new(z), &algebraic.value);
+        }
+        let labels = self.labels.iter().filter_map(|label| match label {
+            Label::Value { value, .. } => Some(*value),
+            Label::Location(_) => None,
+        });
+        let mut outputs = self.reals.iter().copied().chain(labels).filter_map(|shown| match shown {
+            Real::Output(index) => system.outputs.get(index),
+            Real::Source(_) => None,
+        });
+        outputs.any(|y| {
+            let curved = |&node: &NodeId| !linearity.is_affine(&system.graph, node);
+            let moves = |leaf: Leaf| match leaf {
+                Leaf::State(state) => {
+                    let rate = &system.states[state.position()].rate;
+                    rate.by_location.iter().any(|&node| system.graph.as_number(node) != Some(0.0))
+                }
+                Leaf::Input(_) | Leaf::Time => true,
+                _ => false,
+            };
+            y.value.by_location.iter().any(curved) && system.row_sources(&y.value).into_iter().any(moves)
+        })
     }
 
     /// Also keeps the exact trajectory of all states.
@@ -151,8 +192,10 @@ impl Recorder {
         self.complete(&compiled, sinks)?;
         match self.grid {
             Some(_) => self.grid_before(&compiled, end.next_up(), sinks),
-            None if self.last_row < end => self.row(&compiled, end, 0, sinks),
-            None => Ok(()),
+            None => {
+                self.fill_before(&compiled, end, sinks)?;
+                if self.last_row < end { self.row(&compiled, end, 0, sinks) } else { Ok(()) }
+            }
         }
     }
 
@@ -170,9 +213,18 @@ impl Recorder {
         if self.pending.is_some_and(|(pending, _)| pending < time) {
             self.complete(compiled, sinks)?;
         }
+        self.fill_before(compiled, time, sinks)?;
         match record {
+            Record::Switch { .. } if self.pending.is_none_or(|(pending, _)| pending < time) => {
+                self.evaluate(compiled, time.next_down());
+                self.kink = self.last_row > f64::NEG_INFINITY;
+                std::mem::swap(&mut self.before_kink.0, &mut self.values);
+                std::mem::swap(&mut self.before_kink.1, &mut self.label_values);
+                self.pending = Some((time, 0));
+            }
             // Before micro-step 0: the limit from the left. Before a later one: only if all are wanted.
             Record::Jump { step, .. } => {
+                self.kink = false;
                 if step == 0 || self.microsteps {
                     self.row(compiled, time, step, sinks)?;
                 }
@@ -220,10 +272,54 @@ impl Recorder {
     ) -> Result<(), SinkError> {
         match self.pending.take() {
             Some((time, step)) if self.grid.is_none() => {
-                self.row(compiled, time, if self.microsteps { step } else { 0 }, sinks)
+                let step = if self.microsteps { step } else { 0 };
+                if std::mem::take(&mut self.kink) {
+                    return self.rows_at_kink(compiled, time, step, sinks);
+                }
+                self.row(compiled, time, step, sinks)
             }
             _ => Ok(()),
         }
+    }
+
+    /// Two rows where a column jumps, else one. What is on the edge of a condition at the instant itself is beyond it an
+    /// instant later.
+    fn rows_at_kink(
+        &mut self,
+        compiled: &sophy_codegen::Compiled,
+        time: f64,
+        step: u32,
+        sinks: &mut [&mut dyn Sink],
+    ) -> Result<(), SinkError> {
+        self.evaluate(compiled, time + INSTANT * time.abs().max(self.longest.min(1.0)));
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * a.abs().max(b.abs()).max(1.0);
+        let same =
+            self.values.iter().zip(&self.before_kink.0).all(near) && self.label_values == self.before_kink.1;
+        if !same {
+            let (reals, labels) = (&self.before_kink.0, &self.before_kink.1);
+            for sink in sinks.iter_mut() {
+                sink.row(Row { time, step, reals, labels })?;
+            }
+            self.rows += 1;
+        }
+        self.give(time, step, sinks)
+    }
+
+    /// Rows between events.
+    fn fill_before(
+        &mut self,
+        compiled: &sophy_codegen::Compiled,
+        time: f64,
+        sinks: &mut [&mut dyn Sink],
+    ) -> Result<(), SinkError> {
+        while self.pending.is_none() && self.last_row.is_finite() {
+            let next = self.last_row + self.longest;
+            if next >= time || next <= self.last_row {
+                break;
+            }
+            self.row(compiled, next, 0, sinks)?;
+        }
+        Ok(())
     }
 
     fn grid_before(
@@ -251,6 +347,12 @@ impl Recorder {
         step: u32,
         sinks: &mut [&mut dyn Sink],
     ) -> Result<(), SinkError> {
+        self.evaluate(compiled, time);
+        self.give(time, step, sinks)
+    }
+
+    /// The values of all columns.
+    fn evaluate(&mut self, compiled: &sophy_codegen::Compiled, time: f64) {
         self.values.clear();
         for position in 0..self.reals.len() {
             let value = self.value(compiled, self.reals[position], time);
@@ -265,6 +367,9 @@ impl Recorder {
             };
             self.label_values.push(label);
         }
+    }
+
+    fn give(&mut self, time: f64, step: u32, sinks: &mut [&mut dyn Sink]) -> Result<(), SinkError> {
         let row = Row { time, step, reals: &self.values, labels: &self.label_values };
         for sink in sinks.iter_mut() {
             sink.row(row)?;
@@ -290,6 +395,13 @@ impl Recorder {
         }
     }
 }
+
+/// How many rows a run has at least if an output is curved.
+const LEAST_ROWS: f64 = 500.0;
+/// How long an instant is, as a part of time.
+const INSTANT: f64 = 1e-12;
+/// Values that differ by no more than this part of them do not jump.
+const SAME: f64 = 1e-6;
 
 fn at((start, [c0, c1, c2, c3]): (f64, Jet), time: f64) -> f64 {
     let s = time - start;

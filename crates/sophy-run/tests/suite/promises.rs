@@ -1,12 +1,13 @@
 //! The promises of a run, as properties: the band, determinism, pausing, snapshots.
 
-use crate::support::{METHODS, by, to};
+use crate::support::{METHODS, by, run, to};
 use proptest::prelude::*;
 use sophy_field::StateIndex;
 use sophy_ir::Model;
 use sophy_passes::lower;
 use sophy_record::Table;
 use sophy_run::{Experiment, Method, Pause, Recorder, Run, simulate};
+use sophy_testkit::Build;
 use sophy_testkit::problems::{self, Hopper};
 use std::sync::Arc;
 
@@ -110,6 +111,38 @@ fn a_jump_has_a_row_before_and_a_row_after() {
     assert_eq!(names[locations[touchdown] as usize], "Compression");
     assert_eq!(*table.time.last().unwrap(), 1.0);
     assert!(table.time.windows(2).all(|w| w[0] <= w[1]));
+}
+
+/// x′ = w with w = 1 before 1 s and −1 after, and what only outputs show: a sine of time and whether x < 0.5.
+fn kinked() -> Model {
+    let mut b = Build::default();
+    b.component("");
+    let x = b.state("x", 0.0);
+    let [w, sine, low] = ["w", "sine", "low"].map(|name| b.output(name));
+    let here = b.location("all");
+    let [one, minus, half] = [1.0, -1.0, 0.5].map(|number| b.number(number));
+    let (t, now, read) = (b.time(), b.read(x), b.read(w));
+    let (early, small) = (b.less(t, one), b.less(now, half));
+    let [rate, shown] = [(early, one, minus), (small, one, minus)].map(|(c, a, z)| b.graph().select(c, a, z));
+    let wave = b.unary(sophy_ir::Unary::Sin, t);
+    b.rate(here, x, read);
+    for (output, value) in [(w, rate), (sine, wave), (low, shown)] {
+        b.value(here, output, value);
+    }
+    b.model()
+}
+
+#[test]
+fn where_a_value_jumps_with_a_condition_there_are_two_rows_and_curves_have_rows_between() {
+    let table = run(&kinked(), &to(3.0, 1e-3)).table;
+    let (w, sine, low) = (table.real("w").unwrap(), table.real("sine").unwrap(), table.real("low").unwrap());
+    let jump = (1..table.len()).find(|&k| w[k] != w[k - 1]).unwrap();
+    assert_eq!((table.time[jump - 1], table.time[jump]), (1.0, 1.0));
+    assert_eq!((w[jump - 1], w[jump]), (1.0, -1.0));
+    assert!(table.len() > 500 && table.time.windows(2).all(|w| w[1] - w[0] < 0.0061), "{}", table.len());
+    assert!(table.time.iter().zip(sine).all(|(t, y)| (libm::sin(*t) - y).abs() < 1e-12));
+    let falls = (1..table.len()).find(|&k| low[k] < low[k - 1]).unwrap();
+    assert!((table.time[falls] - 0.5).abs() < 0.0061, "{}", table.time[falls]);
 }
 
 /// A reset from outside (an estimator's): guards are decided again, and what is enabled is taken at once.
