@@ -65,7 +65,7 @@ pub fn explain(error: &Error, setup: &Setup) -> Vec<Diagnostic> {
 }
 
 /// Why components do not make a system; an algebraic loop equation by equation.
-fn composition(error: &PassError) -> Diagnostic {
+pub fn composition(error: &PassError) -> Diagnostic {
     if let PassError::Flatten(FlattenError::AlgebraicLoop(equations)) = error
         && let Some(first) = equations.iter().find_map(|equation| equation.span)
     {

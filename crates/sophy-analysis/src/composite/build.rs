@@ -27,9 +27,10 @@ pub(crate) fn build_composite<'a>(
         }
     }
     let members = expand_members(&mut builder, library);
+    let before = builder.shared.findings.error_count();
     let Wiring { composite, incomplete, .. } = connect(&mut builder, &members, &interface);
-    // A connection or member with a mistake feeds nothing: what it was to feed would be complained about, too.
-    if builder.shared.findings.error_count() == errors && !members.broken && !incomplete {
+    // A connection with a mistake feeds nothing: what it was to feed would be complained about, too.
+    if builder.shared.findings.error_count() == before && !members.missing && !incomplete {
         check_connected(&mut builder, &members, &interface, &composite);
     }
     builder.check_uses();

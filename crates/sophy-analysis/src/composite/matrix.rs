@@ -79,6 +79,8 @@ pub(crate) fn compose<'a>(
             }
         }
         let from = match sources.as_slice() {
+            // A row of zeros connects nothing.
+            [] => continue,
             &[(1.0, port)] => Sources::One(port),
             _ => Sources::Sum(sources),
         };

@@ -26,6 +26,8 @@ pub(crate) struct Members {
     by_name: HashMap<String, Named>,
     /// Whether some member, entered or not, has no class: then the composite has none either.
     pub(crate) broken: bool,
+    /// Whether some member is not known at all.
+    pub(crate) missing: bool,
 }
 
 /// What a member name stands for.
@@ -93,6 +95,7 @@ fn expand<'a>(
             MemberItem::Member(member) => {
                 if add(builder, library, member, members).is_none() {
                     members.broken = true;
+                    members.missing = true;
                     if !member.name.value.is_empty() {
                         members.by_name.entry(member.name.value.clone()).or_insert(Named::Broken);
                     }

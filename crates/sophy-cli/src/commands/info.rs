@@ -30,6 +30,10 @@ pub(crate) fn info(arguments: &Info, terminal: &Terminal) -> Exit {
             terminal.answer(&structure::text(&description, Lists::new(arguments.all)), &Value::Null);
             Exit::Done
         }
+        Err(sophy::Error::Composition(error)) => {
+            terminal.diagnostics(&[sophy::composition(&error)], &loaded.sources);
+            Exit::Mistakes
+        }
         Err(error) => {
             terminal.error(&error.to_string(), None);
             Exit::Mistakes
