@@ -169,6 +169,13 @@ impl<'t> Parser<'t> {
         self.stops = before;
     }
 
+    /// An expression inside of another, which one of `stops` ends.
+    pub(crate) fn stopped_by(&mut self, stops: &'static [&'static str], grammar: impl FnOnce(&mut Self)) {
+        let before = std::mem::replace(&mut self.stops, stops);
+        grammar(self);
+        self.stops = before;
+    }
+
     /// Whether an operand that stands here after another one begins something new rather than lacks an operator.
     pub(crate) fn begins_anew(&self) -> bool {
         if self.mode == Mode::Expression {
@@ -181,6 +188,13 @@ impl<'t> Parser<'t> {
             SyntaxKind::Name if matches!(self.next(), SyntaxKind::Colon | SyntaxKind::Assign) => true,
             _ => self.on_new_line(),
         }
+    }
+
+    /// Whether a misspelt `word` may stand here: not where an expression is all there is.
+    pub(crate) fn begins_anew_with(&self, word: &'static str) -> bool {
+        self.mode != Mode::Expression
+            && self.current() == SyntaxKind::Name
+            && closest(self.word(), [word]).is_some()
     }
 
     /// Whether `word` ends the expression, be it misspelt.

@@ -5,6 +5,7 @@ use super::{
     keyword, name_at,
 };
 use crate::kinds::{SyntaxElement, SyntaxKind, SyntaxNode};
+use sophy_diagnostics::closest;
 use std::ops::Range;
 
 view! {
@@ -121,12 +122,17 @@ pub struct Target {
     pub range: Range<usize>,
 }
 
+/// `der`, also misspelt, which has been reported.
+fn is_derivative(function: &str) -> bool {
+    function == "der" || closest(function, ["der"]).is_some()
+}
+
 impl Target {
     /// The target that `left` is.
     pub fn of(left: &Expression) -> Option<Target> {
         let range = left.range();
         let (inner, derivative) = match left {
-            Expression::Call(call) if call.name()? == "der" => match call.arguments().as_slice() {
+            Expression::Call(call) if is_derivative(&call.name()?) => match call.arguments().as_slice() {
                 [argument] => (argument.clone(), true),
                 _ => return None,
             },

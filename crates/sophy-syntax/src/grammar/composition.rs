@@ -2,16 +2,21 @@
 
 use crate::error::{SyntaxError, codes};
 use crate::grammar::expressions::expression;
-use crate::grammar::items::{at_name, close, eat, expect, missing, name, once, semicolon, shape, unit};
-use crate::grammar::statements::for_loop;
+use crate::grammar::items::{
+    at_name, close, eat, expect, missing, misspelt, name, once, semicolon, shape, unit,
+};
+use crate::grammar::statements::{at_for, for_loop};
 use crate::kinds::SyntaxKind;
 use crate::parser::Parser;
+use sophy_diagnostics::closest;
 
 /// `name : Type(p : 1)[3];`.
 pub(crate) fn instance(p: &mut Parser<'_>) {
     use SyntaxKind as K;
+    if at_for(p) {
+        return for_loop(p, instance);
+    }
     match p.current() {
-        K::ForKeyword => return for_loop(p, instance),
         K::Name | K::QuotedName => {}
         _ => return,
     }
@@ -82,13 +87,21 @@ fn arguments(p: &mut Parser<'_>) {
 /// `a.b[i] -> c.d;` or `compose a, b with [[…]];`.
 pub(crate) fn connection(p: &mut Parser<'_>) {
     use SyntaxKind as K;
+    if at_for(p) {
+        return for_loop(p, connection);
+    }
     match p.current() {
-        K::ForKeyword => return for_loop(p, connection),
         K::Name | K::QuotedName => {}
         _ => return,
     }
-    if p.at_word("compose") && matches!(p.next(), K::Name | K::QuotedName) {
-        return compose(p);
+    if matches!(p.next(), K::Name | K::QuotedName) {
+        if !p.at_word("compose") && closest(p.word(), ["compose"]).is_some() {
+            misspelt(p, "compose");
+            return compose(p);
+        }
+        if p.at_word("compose") {
+            return compose(p);
+        }
     }
     p.start(K::Connection);
     port(p);

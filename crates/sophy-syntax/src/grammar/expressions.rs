@@ -1,4 +1,5 @@
 use crate::error::{SyntaxError, codes};
+use crate::grammar::items::eat_misspelt;
 use crate::kinds::SyntaxKind;
 use crate::parser::Parser;
 use rowan::Checkpoint;
@@ -407,11 +408,18 @@ fn conditional(p: &mut Parser<'_>) {
     let errors_before = p.error_count();
     p.start(SyntaxKind::Conditional);
     p.bump();
-    expression(p);
+    p.stopped_by(&["then"], expression);
     for part in [SyntaxKind::Then, SyntaxKind::Else] {
-        if p.current() == part {
-            p.bump();
-            expression(p);
+        let word = if part == SyntaxKind::Then { "then" } else { "else" };
+        let is_misspelt = p.current() != part && p.begins_anew_with(word) && eat_misspelt(p, word);
+        if is_misspelt || p.current() == part {
+            if !is_misspelt {
+                p.bump();
+            }
+            match part {
+                SyntaxKind::Then => p.stopped_by(&["else"], expression),
+                _ => expression(p),
+            }
             continue;
         }
         if p.error_count() == errors_before {

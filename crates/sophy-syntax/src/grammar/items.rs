@@ -111,6 +111,23 @@ pub(crate) fn unknown_word(p: &mut Parser<'_>, place: &str, known: &[&str]) {
     });
 }
 
+/// Takes a misspelt `word` for what it should be.
+pub(crate) fn eat_misspelt(p: &mut Parser<'_>, word: &'static str) -> bool {
+    let is_near = p.current() == SyntaxKind::Name && closest(p.word(), [word]).is_some();
+    if is_near {
+        misspelt(p, word);
+        p.bump();
+    }
+    is_near
+}
+
+/// Says which word is meant in place of the current one.
+pub(crate) fn misspelt(p: &mut Parser<'_>, meant: &str) {
+    let message = format!("`{}` means nothing here", p.word());
+    let error = SyntaxError::new(codes::UNKNOWN_WORD, p.range(), message);
+    p.error(error.help(format!("did you mean `{meant}`?")));
+}
+
 /// ``a``, ``b`` and ``c``.
 pub(crate) fn quoted_words(words: &[&str], conjunction: &str) -> String {
     let mut text = String::new();

@@ -3,7 +3,9 @@
 use crate::error::{SyntaxError, codes};
 use crate::grammar::blocks::{self, Holds};
 use crate::grammar::expressions::{expression, side};
-use crate::grammar::items::{at_name, eat, expect, expect_before, missing, name, semicolon, unknown_word};
+use crate::grammar::items::{
+    at_name, eat, eat_misspelt, expect, expect_before, missing, misspelt, name, semicolon, unknown_word,
+};
 use crate::kinds::SyntaxKind;
 use crate::parser::Parser;
 use sophy_diagnostics::closest;
@@ -107,7 +109,11 @@ fn derivative(left: &str) -> Option<&str> {
 fn equality(p: &mut Parser<'_>, explicit: bool) {
     p.start(SyntaxKind::Equation);
     let left = p.range().start;
-    let left_is_target = !explicit || at_target(p);
+    let is_misspelt = explicit && at_misspelt_derivative(p);
+    if is_misspelt {
+        misspelt(p, "der");
+    }
+    let left_is_target = !explicit || is_misspelt || at_target(p);
     p.fenced(side);
     let range = p.range();
     match p.current() {
@@ -179,6 +185,15 @@ fn at_target(p: &Parser<'_>) -> bool {
         }
 }
 
+/// `dr(x) = …`: what is called on the left can only be `der`.
+fn at_misspelt_derivative(p: &Parser<'_>) -> bool {
+    p.current() == SyntaxKind::Name
+        && p.next() == SyntaxKind::LeftParenthesis
+        && p.word() != "der"
+        && closest(p.word(), ["der"]).is_some()
+        && p.after_brackets() == SyntaxKind::Equal
+}
+
 /// `if c then … elsif c then … else … end if;` around `item`s.
 fn conditional(p: &mut Parser<'_>, item: fn(&mut Parser<'_>)) {
     use SyntaxKind as K;
@@ -205,17 +220,26 @@ fn branch(p: &mut Parser<'_>, item: fn(&mut Parser<'_>)) {
     p.bump();
     if has_condition {
         p.fenced_before(&["then"], expression);
-        let misspelt = p.current() == K::Name && closest(p.word(), ["then"]).is_some();
-        if misspelt {
-            unknown_word(p, "the statements of an `if`", &["then"]);
-            p.bump();
-        } else {
+        if !eat_misspelt(p, "then") {
             expect_before(p, K::Then, "`then`", "write `if condition then`");
         }
     }
     eat(p, K::DoKeyword);
     blocks::content(p, &[K::Else, K::ElsifKeyword], item);
     p.finish_node();
+}
+
+/// Whether a loop starts here; a misspelt `for` is reported.
+pub(crate) fn at_for(p: &mut Parser<'_>) -> bool {
+    use SyntaxKind as K;
+    let is_misspelt = p.current() == K::Name
+        && matches!(p.next(), K::Name | K::QuotedName)
+        && p.ahead(2).0 == K::InKeyword
+        && closest(p.word(), ["for"]).is_some();
+    if is_misspelt {
+        misspelt(p, "for");
+    }
+    is_misspelt || p.current() == K::ForKeyword
 }
 
 /// `for i in 1..n loop … end loop;` around `item`s.
@@ -230,7 +254,9 @@ pub(crate) fn for_loop(p: &mut Parser<'_>, item: fn(&mut Parser<'_>)) {
         if expect(p, K::InKeyword, "`in`", help) {
             range(p);
         }
-        expect_before(p, K::LoopKeyword, "`loop`", help);
+        if !eat_misspelt(p, "loop") {
+            expect_before(p, K::LoopKeyword, "`loop`", help);
+        }
         blocks::open(p, "loop", Holds::Items, opening);
         blocks::content(p, &[], item);
         blocks::close(p);
@@ -243,7 +269,7 @@ fn range(p: &mut Parser<'_>) {
     p.start(SyntaxKind::Range);
     p.fenced(side);
     if expect(p, SyntaxKind::DotDot, "`..`", "write `for i in 1..n loop`") {
-        p.fenced(side);
+        p.fenced_before(&["loop"], side);
     }
     p.finish_node();
 }
