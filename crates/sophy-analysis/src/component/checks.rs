@@ -448,13 +448,17 @@ impl Builder<'_, '_> {
                     self.lives_in(id, position) && !defined && !only_assigned
                 })
                 .collect();
-            let matched = self.matched(&location.defined, &location.constraints, &lacking);
+            let matched = self.matched(&location.defined, &location.constraints, &lacking, true);
+            let place =
+                location.declaration.map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
+            let span = |k: usize| location.constraints[k].span.unwrap_or(self.declaration.name.span);
             for &constraint in &matched.superfluous {
-                let span = location.constraints[constraint].span.unwrap_or(self.declaration.name.span);
-                let place = location
-                    .declaration
-                    .map_or_else(String::new, |l| format!(" in location `{}`", l.name.value));
-                found.push(hs0145_constrained::too_many(span, &place));
+                found.push(hs0145_constrained::too_many(span(constraint), &place));
+            }
+            let directly = self.matched(&location.defined, &location.constraints, &lacking, false);
+            if let (Some(&constraint), true) = (directly.superfluous.first(), matched.superfluous.is_empty())
+            {
+                found.push(hs0145_constrained::higher_index(span(constraint), &place));
             }
             for id in matched.undetermined {
                 let place = location.declaration.map(|l| (l.name.value.clone(), l.name.span));
@@ -497,9 +501,15 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn matched(&self, defined: &Defined, constraints: &[Constraint], unknowns: &[VariableId]) -> Matched {
+    fn matched(
+        &self,
+        defined: &Defined,
+        constraints: &[Constraint],
+        unknowns: &[VariableId],
+        differentiated: bool,
+    ) -> Matched {
         let is_state = |id: VariableId| matches!(self.variables[id.0 as usize].kind, VariableKind::State(_));
-        match_constraints(&self.graph, defined, constraints, unknowns, is_state)
+        match_constraints(&self.graph, defined, constraints, unknowns, is_state, differentiated)
     }
 
     /// Outputs and locals of a discrete-time component have an equation or are assigned, or a constraint determines
@@ -516,7 +526,7 @@ impl Builder<'_, '_> {
             let base = self.base(id);
             !(defined.contains(&id) || meant.contains(base) || assigned.contains(base))
         });
-        let matched = self.matched(&Defined::default(), constraints, &lacking);
+        let matched = self.matched(&Defined::default(), constraints, &lacking, true);
         for constraint in matched.superfluous {
             let span = constraints[constraint].span.unwrap_or(self.declaration.name.span);
             self.report(hs0145_constrained::too_many(span, ""));

@@ -13,7 +13,7 @@ pub(crate) struct Matched {
 
 /// Assigns a constraint to each quantity that has no equation.
 ///
-/// A constraint can determine what it reads, what the equations of that read, and, since it may be differentiated
+/// A constraint can determine what it reads, what the equations of that read, and, if it may be `differentiated`
 /// (Pantelides), what the derivatives of the states in it read. States without a derivative of their own can be
 /// determined, too, but need not be.
 pub(crate) fn match_constraints(
@@ -22,6 +22,7 @@ pub(crate) fn match_constraints(
     constraints: &[Constraint],
     unknowns: &[VariableId],
     is_state: impl Fn(VariableId) -> bool,
+    differentiated: bool,
 ) -> Matched {
     if constraints.is_empty() {
         return Matched { undetermined: unknowns.to_vec(), superfluous: Vec::new() };
@@ -43,7 +44,11 @@ pub(crate) fn match_constraints(
             if wanted.contains(&id) || (rate.is_none() && value.is_none() && is_state(id)) {
                 found.push(id);
             }
-            let nodes = rate.into_iter().chain(value).filter_map(|definition| definition.right);
+            let nodes = rate
+                .filter(|_| differentiated)
+                .into_iter()
+                .chain(value)
+                .filter_map(|definition| definition.right);
             pending.extend(graph.dependencies(nodes));
         }
         found.sort_by_key(|id| (!wanted.contains(id), *id));

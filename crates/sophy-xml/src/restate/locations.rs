@@ -176,7 +176,7 @@ impl<'c> Restating<'_, 'c> {
         locals: &mut Locals<'c>,
     ) -> Option<(Half, Transition<'c>)> {
         if let Some(priority) = &transition.priority {
-            let way_out = "delete it; the first one written goes first";
+            let way_out = "write the transitions in the order of their priorities, and delete these: the first one written goes first";
             self.complaints.cannot(priority.span, "SOPHY XML has no priorities", way_out);
         }
         let (half, domain, labels) = self.trigger(transition, locals)?;
