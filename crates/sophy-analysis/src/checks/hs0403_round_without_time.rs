@@ -1,10 +1,11 @@
 //! Transitions lead round in a circle without time passing: one guard enables them all, and none of them changes what
-//! it depends on. Once it holds, the run would never leave the instant.
+//! it depends on. Once it holds, the run would never leave the instant. So it is where one quantity is beyond the levels
+//! of all guards, if these are different ones; whether it ever comes there is not known.
 
 use crate::component::{BuiltLocation, BuiltTransition};
 use crate::declarations::TriggerDeclaration;
-use sophy_diagnostics::{Code, Diagnostic, Diagnostics};
-use sophy_ir::{Graph, Leaf, Node, NodeId, VariableId};
+use sophy_diagnostics::{Code, Diagnostic, Diagnostics, Severity};
+use sophy_ir::{Comparison, Graph, Leaf, Node, NodeId, VariableId};
 use std::collections::{BTreeMap, BTreeSet};
 
 pub(crate) const CODE: Code = Code("HS0403");
@@ -12,6 +13,7 @@ pub(crate) const CODE: Code = Code("HS0403");
 /// Follows, guard by guard, the transitions that leave it as it is.
 pub(crate) fn find(locations: &[BuiltLocation<'_>], graph: &Graph, diagnostics: &mut Diagnostics) {
     let mut by_guard: BTreeMap<NodeId, Vec<(usize, &BuiltTransition<'_>)>> = BTreeMap::new();
+    let mut by_side: BTreeMap<(NodeId, bool), Vec<(usize, &BuiltTransition<'_>)>> = BTreeMap::new();
     for (position, location) in locations.iter().enumerate() {
         for transition in &location.transitions {
             let Some(guard) = transition.guard.filter(|_| is_level(transition) && transition.sound) else {
@@ -20,13 +22,38 @@ pub(crate) fn find(locations: &[BuiltLocation<'_>], graph: &Graph, diagnostics: 
             let ends = [Some(location), transition.destination.and_then(|entered| locations.get(entered))];
             if !matches!(graph.node(guard), Node::Boolean(_)) && !changes(graph, guard, transition, ends) {
                 by_guard.entry(guard).or_default().push((position, transition));
+                if let Some(side) = side(graph, guard) {
+                    by_side.entry(side).or_default().push((position, transition));
+                }
             }
         }
     }
     for ways in by_guard.values() {
         if let Some(circle) = circle(ways) {
-            diagnostics.push(diagnostic(&circle, locations));
+            diagnostics.push(diagnostic(&circle, locations, Severity::Error));
         }
+    }
+    for ways in by_side.values() {
+        if let Some(circle) =
+            circle(ways).filter(|circle| circle.iter().any(|way| way.guard != circle[0].guard))
+        {
+            diagnostics.push(diagnostic(&circle, locations, Severity::Warning));
+        }
+    }
+}
+
+/// The quantity that a guard compares with a number, and whether it must be above it.
+fn side(graph: &Graph, guard: NodeId) -> Option<(NodeId, bool)> {
+    let Node::Compare(comparison, a, b) = graph.node(guard) else { return None };
+    let above = match comparison {
+        Comparison::Greater | Comparison::GreaterEqual => true,
+        Comparison::Less | Comparison::LessEqual => false,
+        Comparison::Equal | Comparison::NotEqual => return None,
+    };
+    match (graph.as_number(a), graph.as_number(b)) {
+        (None, Some(_)) => Some((a, above)),
+        (Some(_), None) => Some((b, !above)),
+        _ => None,
     }
 }
 
@@ -83,22 +110,35 @@ fn circle<'t, 'a>(ways: &[(usize, &'t BuiltTransition<'a>)]) -> Option<Vec<&'t B
     None
 }
 
-fn diagnostic(circle: &[&BuiltTransition<'_>], locations: &[BuiltLocation<'_>]) -> Diagnostic {
+fn diagnostic(
+    circle: &[&BuiltTransition<'_>],
+    locations: &[BuiltLocation<'_>],
+    severity: Severity,
+) -> Diagnostic {
     let names: Vec<String> = circle.iter().map(|way| format!("`{}`", way.declaration.name.value)).collect();
     let first = circle[0].declaration;
     let message = match names.as_slice() {
         [only] => format!("{only} leads to its own location without time passing, again and again"),
         _ => format!("{} lead round in a circle without time passing", names.join(", ")),
     };
-    let mut error = Diagnostic::error(CODE, first.name.span, message);
+    let certain = severity == Severity::Error;
+    let mut error = if certain {
+        Diagnostic::error(CODE, first.name.span, message)
+    } else {
+        let message = format!("{message}, where what they compare is beyond all their levels");
+        Diagnostic::warning(CODE, first.name.span, message)
+    };
     for way in &circle[1..] {
         error = error.label(way.declaration.name.span, "and then this one");
     }
     let last = circle[circle.len() - 1].destination.and_then(|d| locations.get(d)?.declaration);
     let place = last.map_or("", |location| location.name.value.as_str());
-    error
-        .note(format!("back in `{place}`, the guard is as true as before: nothing that it reads has changed"))
-        .help("let a transition assign what the guard reads, or wait for something else on the way back")
+    if certain {
+        let note =
+            format!("back in `{place}`, the guard is as true as before: nothing that it reads has changed");
+        error = error.note(note);
+    }
+    error.help("let a transition assign what the guard reads, or wait for something else on the way back")
 }
 
 #[cfg(test)]

@@ -226,12 +226,20 @@ fn dependencies(d: &Description, lists: Lists, out: &mut String) {
     }
 }
 
+/// What constraints determine reads what they read; who solves them for it is not decided yet.
+fn constrained(d: &Description, out: &mut String) {
+    if d.index > 0 {
+        line(out, "  not counted: what is read by way of constraints");
+    }
+}
+
 fn matrix(d: &Description, out: &mut String) {
     let read: HashSet<&str> = d.dependencies.iter().flat_map(|row| &row.reads).map(String::as_str).collect();
     let named = d.states.iter().chain(&d.modes).chain(&d.inputs).map(|q| q.name.as_str()).chain(["time"]);
     let columns: Vec<&str> = named.filter(|name| read.contains(name)).collect();
     if columns.is_empty() {
         line(out, "\nDependencies: no rate reads a state, a mode, an input or the time");
+        constrained(d, out);
         return;
     }
     let width = d.dependencies.iter().map(|row| row.state.chars().count() + 5).max().unwrap_or(0);
@@ -258,6 +266,7 @@ fn matrix(d: &Description, out: &mut String) {
             line(out, &format!("  in {location}, der({}) reads {reads}", row.state));
         }
     }
+    constrained(d, out);
 }
 
 /// What depends on itself, and the index of the equations.
