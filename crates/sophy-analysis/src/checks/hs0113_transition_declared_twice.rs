@@ -44,7 +44,7 @@ mod tests {
                transition t when x < 0 goto B
              location B
                der x = 1
-               transition t when x > 2 goto A",
+               transition t when x^2 > 2 goto A",
             "error[HS0113] line 5 `t`: two transitions of location `A` are called `t`
                line 4 `t`: the first
                help: rename one of them",
