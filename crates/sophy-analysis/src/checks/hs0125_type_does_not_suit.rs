@@ -26,6 +26,16 @@ pub(crate) fn continuous(name: &str, kind: Span, equation: Option<Span>) -> Diag
     }
 }
 
+/// An event carries no value that could have a range, a unit or elements.
+pub(crate) fn event_with_value(name: &str, span: Span) -> Diagnostic {
+    Diagnostic::error(
+        CODE,
+        span,
+        format!("event `{name}` carries no value: it has no range, unit or elements"),
+    )
+    .help("delete them; what goes with an event is another port, `real` say")
+}
+
 /// A discrete-time or logic component has an output that is a signal.
 pub(crate) fn output(component: ComponentKind, name: &str, span: Span) -> Diagnostic {
     let message = format!(

@@ -230,6 +230,9 @@ impl<'a> Builder<'_, 'a> {
         };
         let value = self.at(Place::EQUATION).value_for(&equation.right, &expected);
         let nodes = value.map(|value: Typed| value.elements.as_slice().to_vec());
+        if let (Some(nodes), false) = (&nodes, equation.derivative) {
+            self.check_assigned_range(&ids, nodes, equation.right.span);
+        }
         for (k, id) in ids.into_iter().enumerate() {
             let definition = Definition {
                 right: nodes.as_ref().and_then(|nodes| nodes.get(k).copied()),

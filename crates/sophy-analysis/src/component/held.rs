@@ -54,11 +54,11 @@ impl Builder<'_, '_> {
                 Node::Leaf(Leaf::Time) => return true,
                 Node::Leaf(Leaf::Variable(variable)) => match self.variables[variable.0 as usize].kind {
                     VariableKind::State(_) => return true,
-                    VariableKind::Input { continuous } if continuous => return true,
-                    VariableKind::Local | VariableKind::Flag | VariableKind::Output => {
-                        if variables.insert(variable) {
-                            pending.extend(defined.values.get(&variable).and_then(|d| d.right));
-                        }
+                    VariableKind::Input { continuous: true } => return true,
+                    VariableKind::Local | VariableKind::Flag | VariableKind::Output
+                        if variables.insert(variable) =>
+                    {
+                        pending.extend(defined.values.get(&variable).and_then(|d| d.right));
                     }
                     _ => {}
                 },

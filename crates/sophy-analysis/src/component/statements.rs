@@ -199,7 +199,7 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// Complains about a number outside the range of the variable that it is assigned to.
-    fn check_assigned_range(&mut self, ids: &[VariableId], nodes: &[NodeId], at: Span) {
+    pub(crate) fn check_assigned_range(&mut self, ids: &[VariableId], nodes: &[NodeId], at: Span) {
         for (&id, &node) in ids.iter().zip(nodes) {
             let Variable { name, range, span, .. } = &self.variables[id.0 as usize];
             let declared = span.unwrap_or(at);

@@ -518,6 +518,11 @@ impl<'a> Builder<'_, 'a> {
     fn declare_event(&mut self, port: &'a PortDeclaration, interface: &mut Interface) {
         let name = &port.name;
         let symbol = Symbol { kind: SymbolKind::Event, span: name.span, value: SymbolValue::Event };
+        let has_elements = port.kind.as_ref().is_some_and(|kind| !kind.shape.is_empty());
+        if port.range.is_some() || port.unit.is_some() || has_elements {
+            let span = port.unit.as_ref().map_or(name.span, |unit| unit.span);
+            self.report(hs0125_type_does_not_suit::event_with_value(&name.value, span));
+        }
         if !self.declare(name, symbol) {
             return;
         }
