@@ -131,7 +131,17 @@ fn statistics(finished: &Finished) -> String {
     ];
     let lines: String =
         lines.iter().map(|(name, value)| format!("\n  {name:<26}{:>14}", count(*value))).collect();
-    format!("{lines}\n  {:<26}{:>14}", "back end", backend(finished))
+    let lines = format!("{lines}\n  {:<26}{:>14}", "back end", backend(finished));
+    match per_step(finished) {
+        Some(ns) => format!("{lines}\n  {:<26}{ns:>11.0} ns, recording included", "time per step"),
+        None => lines,
+    }
+}
+
+/// Time of the whole run over its steps, ns.
+fn per_step(finished: &Finished) -> Option<f64> {
+    let steps = finished.report.statistics.engine.steps;
+    (steps > 0).then(|| 1e9 * finished.report.elapsed.as_secs_f64() / steps as f64)
 }
 
 fn backend(finished: &Finished) -> &'static str {
@@ -173,6 +183,7 @@ fn answer(model: &Model, start: f64, finished: &Finished) -> Value {
             "instants": hybrid.instants,
             "unused_events": hybrid.unused_events,
             "backend": backend(finished),
+            "ns_per_step": per_step(finished),
         },
     })
 }

@@ -139,8 +139,11 @@ impl Asked {
             Asked { calls: vec![vec![None; programs]; width], results: vec![FxHashSet::default(); programs] };
         for block in &equations.blocks {
             let orders = if block.bends { width } else { width - 1 };
-            // Two for a motion of one state alone (Jacobian entries), and at starts.
-            asked.call(&block.call, &[1, 2, orders]);
+            asked.call(&block.call, &[1, orders]);
+            // For motions of one state alone, and at starts of the third order.
+            if width != 3 {
+                asked.call(&block.call, &[2]);
+            }
             for row in &equations.rows[block.rows.start as usize..block.rows.end as usize] {
                 asked.result(&block.call, row.result, width);
             }
@@ -148,17 +151,29 @@ impl Asked {
         for call in &equations.calls {
             asked.call(call, &[1, width]);
         }
-        let watches = equations.watches.iter().flat_map(|watch| [&watch.formula, &watch.left, &watch.right]);
+        for watch in &equations.watches {
+            asked.formula(&watch.formula, &[1, width], width);
+            asked.formula(&watch.left, &[1], width);
+            asked.formula(&watch.right, &[1], width);
+        }
         let resets = logic.transitions.iter().flat_map(|transition| {
             let resets = transition.resets.iter().map(|(_, formula)| formula);
             resets.chain(transition.emits.iter().filter_map(|emission| emission.when.as_ref()))
         });
-        for formula in equations.formulas.iter().chain(watches).chain(resets) {
-            let Formula { call, result, .. } = formula;
-            asked.call(call, &[1, width]);
-            asked.result(call, *result, width);
+        // Rates over x serve Jacobians, which nobody asks for in every step.
+        let outputs = equations.outputs.iter().flat_map(|output| {
+            let locations = equations.automata[output.owner.position()].armed.len();
+            &equations.formulas[output.first as usize..][..locations]
+        });
+        for formula in outputs.chain(resets) {
+            asked.formula(formula, &[1], width);
         }
         asked
+    }
+
+    fn formula(&mut self, formula: &Formula, orders: &[usize], width: usize) {
+        self.call(&formula.call, orders);
+        self.result(&formula.call, formula.result, width);
     }
 
     fn call(&mut self, call: &Call, orders: &[usize]) {

@@ -124,7 +124,8 @@ impl<const ORDER: usize> Qss<ORDER> {
                 let slope = if source.position() == i { 1.0 } else { 0.0 };
                 self.record_mut(source.position()).set_q([value, slope, 0.0], t);
             }
-            self.run_block(e, block, t, 2);
+            // As many coefficients as its rates have anyway, so that one native function serves both.
+            self.run_block(e, block, t, if ORDER == 2 && block.bends { 3 } else { 2 });
             let mut kept = std::mem::take(&mut self.kept);
             for (&source, (q, start)) in e.sources(&block.sources).iter().zip(kept.drain(..)) {
                 self.record_mut(source.position()).set_q(q, start);
