@@ -271,15 +271,8 @@ impl Equations {
     /// The coefficients that stand at an operand.
     #[inline]
     pub fn result(&self, operand: Operand, memory: &[f64], orders: usize) -> Jet {
-        let mut coefficients = Jet::default();
-        match operand {
-            Operand::Scalar(offset) => coefficients[0] = memory[offset as usize],
-            Operand::Jet(offset) => {
-                for (k, c) in coefficients.iter_mut().enumerate().take(orders) {
-                    *c = memory[offset as usize + k];
-                }
-            }
-        }
+        let mut coefficients = self.rate(operand, memory);
+        coefficients.iter_mut().skip(orders).for_each(|c| *c = 0.0);
         coefficients
     }
 

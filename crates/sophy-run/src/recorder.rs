@@ -32,11 +32,15 @@ pub struct Recorder {
     pending: Option<(f64, u32)>,
     last_row: f64,
     stop: f64,
+    /// How long the run is, s.
+    span: f64,
     /// The longest time between two rows, s.
     longest: f64,
-    /// A column may jump where a kink is crossed: the row before, and what stands behind, an instant later.
+    /// Whether a kink is crossed at the pending instant: a column may jump there.
     kink: bool,
+    /// The row just before it, and the one just behind.
     before_kink: (Vec<f64>, Vec<u32>),
+    behind_kink: (Vec<f64>, Vec<u32>),
     values: Vec<f64>,
     label_values: Vec<u32>,
     /// The exact trajectory, if wanted.
@@ -90,9 +94,11 @@ impl Recorder {
             pending: Some((experiment.start, 0)),
             last_row: f64::NEG_INFINITY,
             stop: experiment.stop,
+            span: experiment.stop - experiment.start,
             longest: f64::INFINITY,
             kink: false,
             before_kink: Default::default(),
+            behind_kink: Default::default(),
             values: Vec::new(),
             label_values: Vec::new(),
             trajectory: None,
@@ -113,7 +119,7 @@ impl Recorder {
             });
         }
         if recorder.shows_curves(system) {
-            recorder.longest = (experiment.stop - experiment.start) / LEAST_ROWS;
+            recorder.longest = recorder.span / LEAST_ROWS;
         }
         Ok(recorder)
     }
@@ -291,14 +297,22 @@ impl Recorder {
         step: u32,
         sinks: &mut [&mut dyn Sink],
     ) -> Result<(), SinkError> {
-        self.evaluate(compiled, time + INSTANT * time.abs().max(self.longest.min(1.0)));
-        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * a.abs().max(b.abs()).max(1.0);
-        let same =
-            self.values.iter().zip(&self.before_kink.0).all(near) && self.label_values == self.before_kink.1;
-        if !same {
-            let (reals, labels) = (&self.before_kink.0, &self.before_kink.1);
+        self.evaluate(compiled, time + INSTANT * time.abs().max(self.span));
+        std::mem::swap(&mut self.behind_kink.0, &mut self.values);
+        std::mem::swap(&mut self.behind_kink.1, &mut self.label_values);
+        self.evaluate(compiled, time);
+        let ((before, labels), (behind, labels_behind)) = (&self.before_kink, &self.behind_kink);
+        let mut jumps = labels != labels_behind;
+        for ((value, before), behind) in self.values.iter_mut().zip(before).zip(behind) {
+            if (before - behind).abs() > SAME * before.abs().max(behind.abs()) {
+                *value = *behind;
+                jumps = true;
+            }
+        }
+        self.label_values.clone_from(labels_behind);
+        if jumps {
             for sink in sinks.iter_mut() {
-                sink.row(Row { time, step, reals, labels })?;
+                sink.row(Row { time, step, reals: before, labels })?;
             }
             self.rows += 1;
         }

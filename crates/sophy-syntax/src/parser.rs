@@ -190,11 +190,9 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Whether a misspelt `word` may stand here: not where an expression is all there is.
-    pub(crate) fn begins_anew_with(&self, word: &'static str) -> bool {
-        self.mode != Mode::Expression
-            && self.current() == SyntaxKind::Name
-            && closest(self.word(), [word]).is_some()
+    /// Whether the text is an expression and nothing else: then no word is taken for a misspelt keyword.
+    pub(crate) fn is_expression_alone(&self) -> bool {
+        self.mode == Mode::Expression
     }
 
     /// Whether `word` ends the expression, be it misspelt.

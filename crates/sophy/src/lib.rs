@@ -101,7 +101,7 @@ pub use error::Error;
 pub use format::{Formatted, format};
 pub use load::{Loaded, Provenance, load, load_as, load_experiment, load_model};
 pub use pages::{Page, page, pages};
-pub use run::{Finished, check, composition, explain, run};
+pub use run::{Finished, check, explain, explain_composition, run};
 pub use setup::{Outputs, Setup, SignalError, read_signal};
 pub use simulate::{Simulation, simulate};
 pub use world::FileWorld;

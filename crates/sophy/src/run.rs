@@ -39,7 +39,7 @@ pub fn check(loaded: &Loaded) -> Diagnostics {
     let Some(model) = &loaded.model else { return found };
     if loaded.provenance.experiment.is_empty() {
         if let Err(error) = sophy_passes::lower(model) {
-            found.push(composition(&error));
+            found.push(explain_composition(&error));
         }
         return found;
     }
@@ -58,14 +58,14 @@ pub fn explain(error: &Error, setup: &Setup) -> Vec<Diagnostic> {
     match error {
         Error::Experiment(errors) => errors.iter().map(|error| setup.explain(error)).collect(),
         Error::Failure(failure) => vec![failure.diagnostic()],
-        Error::Composition(error) => vec![composition(error)],
+        Error::Composition(error) => vec![explain_composition(error)],
         Error::Sink(error) => vec![nowhere("FI0003", error.to_string())],
         Error::File(error) => vec![nowhere("FI0003", error.to_string())],
     }
 }
 
 /// Why components do not make a system; an algebraic loop equation by equation.
-pub fn composition(error: &PassError) -> Diagnostic {
+pub fn explain_composition(error: &PassError) -> Diagnostic {
     if let PassError::Flatten(FlattenError::AlgebraicLoop(equations)) = error
         && let Some(first) = equations.iter().find_map(|equation| equation.span)
     {

@@ -31,7 +31,7 @@ pub(crate) fn info(arguments: &Info, terminal: &Terminal) -> Exit {
             Exit::Done
         }
         Err(sophy::Error::Composition(error)) => {
-            terminal.diagnostics(&[sophy::composition(&error)], &loaded.sources);
+            terminal.diagnostics(&[sophy::explain_composition(&error)], &loaded.sources);
             Exit::Mistakes
         }
         Err(error) => {

@@ -104,26 +104,7 @@ impl<const ORDER: usize> Record<'_, ORDER> {
     }
 }
 
-/// Delay until |x − q|, given by their coefficients, reaches the quantum (eq. 3.6), infinite if never.
-#[inline]
-pub(super) fn leaves<const ORDER: usize>([x0, x1, x2, x3]: Jet, [q0, q1, q2]: [f64; 3], quantum: f64) -> f64 {
-    if Place::<ORDER>::X > 3 {
-        return cubic_leaves([x0 - q0, x1 - q1, x2 - q2, x3], quantum);
-    }
-    parabola_leaves([x0 - q0, x1 - q1, x2], quantum)
-}
-
-/// The same where q has just taken all coefficients of x but the highest.
-#[inline]
-pub(super) fn leaves_from_middle<const ORDER: usize>([_, x1, x2, x3]: Jet, quantum: f64) -> f64 {
-    match ORDER {
-        1 => quantum / x1.abs(),
-        2 => 2.0 * quantum / (4.0 * x2.abs() * quantum).sqrt(),
-        _ => cube_root(quantum / x3.abs()),
-    }
-}
-
-/// The same, to be written.
+/// A source's record, to be written.
 #[derive(Debug)]
 pub(super) struct RecordMut<'a, const ORDER: usize>(pub(super) &'a mut [f64]);
 
@@ -161,6 +142,25 @@ impl<const ORDER: usize> RecordMut<'_, ORDER> {
         self.set_x([value, slope, 0.0, 0.0], time);
         self.set_q([value, slope, 0.0], time);
         self.set_quantum(f64::INFINITY);
+    }
+}
+
+/// Delay until |x − q|, given by their coefficients, reaches the quantum (eq. 3.6), infinite if never.
+#[inline]
+pub(super) fn leaves<const ORDER: usize>([x0, x1, x2, x3]: Jet, [q0, q1, q2]: [f64; 3], quantum: f64) -> f64 {
+    if Place::<ORDER>::X > 3 {
+        return cubic_leaves([x0 - q0, x1 - q1, x2 - q2, x3], quantum);
+    }
+    parabola_leaves([x0 - q0, x1 - q1, x2], quantum)
+}
+
+/// That delay where q has just taken all coefficients of x but the highest.
+#[inline]
+pub(super) fn leaves_from_middle<const ORDER: usize>([_, x1, x2, x3]: Jet, quantum: f64) -> f64 {
+    match ORDER {
+        1 => quantum / x1.abs(),
+        2 => 2.0 * quantum / (4.0 * x2.abs() * quantum).sqrt(),
+        _ => cube_root(quantum / x3.abs()),
     }
 }
 

@@ -411,7 +411,7 @@ fn conditional(p: &mut Parser<'_>) {
     p.stopped_by(&["then"], expression);
     for part in [SyntaxKind::Then, SyntaxKind::Else] {
         let word = if part == SyntaxKind::Then { "then" } else { "else" };
-        let is_misspelt = p.current() != part && p.begins_anew_with(word) && eat_misspelt(p, word);
+        let is_misspelt = p.current() != part && !p.is_expression_alone() && eat_misspelt(p, word);
         if is_misspelt || p.current() == part {
             if !is_misspelt {
                 p.bump();
