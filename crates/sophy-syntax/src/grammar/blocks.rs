@@ -210,7 +210,10 @@ fn at_end(p: &Parser<'_>) -> bool {
         SyntaxKind::EndKeyword | SyntaxKind::EndifKeyword => true,
         SyntaxKind::Name => {
             let (next, text) = p.ahead(1);
-            let closing = next.word().is_some() || next == SyntaxKind::If || text == "transition";
+            let closing = next.word().is_some()
+                || next == SyntaxKind::If
+                || text == "transition"
+                || p.blocks.iter().any(|block| block.word == text);
             closing && p.ahead(2).0 == SyntaxKind::Semicolon && closest(p.word(), ["end"]).is_some()
         }
         _ => end_forgotten(p),
