@@ -2,7 +2,7 @@
 //!
 //! `cargo xtask bench` builds and runs this; the table goes to the terminal and to `results/latest.{md,json}`. With
 //! the word `language` it measures the language alone (`language copies`: one kind of text), with `engine` the engines
-//! alone, and writes no file.
+//! alone, with `recording` what recording costs, and writes no file.
 //! Machines are noisy: read the ratios, which compare neighbours in time, and never a speed without the error
 //! that stands beside it.
 
@@ -14,6 +14,7 @@ mod language;
 mod measure;
 mod memory;
 mod oscillator;
+mod recording;
 mod report;
 mod systems;
 
@@ -27,6 +28,10 @@ fn main() -> std::io::Result<()> {
         }
         Some("engine") => {
             print!("{}", report::markdown(&engines()));
+            return Ok(());
+        }
+        Some("recording") => {
+            print!("{}", report::recorded_markdown(&recording::bench()));
             return Ok(());
         }
         _ => {}

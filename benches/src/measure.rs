@@ -79,21 +79,24 @@ pub fn repeat<S>(repetitions: usize, begin: impl Fn() -> S, work: impl Fn(&mut S
     (medians(&times), state)
 }
 
-fn timed<R>(run: &mut impl FnMut() -> R) -> (R, Time) {
+/// The result of `run`, and what it took.
+pub fn timed<R>(run: &mut impl FnMut() -> R) -> (R, Time) {
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
     let result = run();
     let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
     (result, Time { wall_ms: 1e3 * wall.as_secs_f64(), cpu_ms: 1e3 * cpu.as_secs_f64() })
 }
 
-fn medians(times: &[Time]) -> Time {
+/// Of the wall and of CPU times, each by itself.
+pub fn medians(times: &[Time]) -> Time {
     Time {
         wall_ms: median(times.iter().map(|time| time.wall_ms)),
         cpu_ms: median(times.iter().map(|time| time.cpu_ms)),
     }
 }
 
-fn median(values: impl Iterator<Item = f64>) -> f64 {
+/// The one in the middle.
+pub fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]

@@ -1,6 +1,7 @@
 use crate::build::Built;
 use crate::language::Told;
 use crate::measure::Measured;
+use crate::recording::Recorded;
 use serde_json::json;
 
 /// The table for people.
@@ -46,6 +47,21 @@ pub fn built_markdown(built: &[Built]) -> String {
             1e-3 * (b.lift_ms + b.start_ms),
             b.bytes / b.states,
             b.peak / b.states,
+        );
+    }
+    text
+}
+
+/// Recording, for people.
+pub fn recorded_markdown(recorded: &[Recorded]) -> String {
+    let mut text = String::from(
+        "| recording | rows | run, ms | of its thread, ms | × nothing recorded | of its thread | completing the file, ms |\n\
+         | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+    );
+    for r in recorded {
+        text += &format!(
+            "| {} | {} | {:.1} | {:.1} | {:.2} | {:.2} | {:.1} |\n",
+            r.into, r.rows, r.run.wall_ms, r.run.cpu_ms, r.wall_ratio, r.cpu_ratio, r.finish.wall_ms,
         );
     }
     text

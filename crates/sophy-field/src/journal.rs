@@ -105,8 +105,19 @@ impl Journal {
         self.entries.is_empty()
     }
 
-    /// The lines in order; the journal is empty afterwards and keeps its memory.
-    pub fn drain(&mut self) -> impl Iterator<Item = Record> {
-        self.entries.drain(..)
+    /// The lines in order.
+    pub fn lines(&self) -> &[Record] {
+        &self.entries
+    }
+
+    /// Forgets all lines and keeps their memory.
+    pub fn clear(&mut self) {
+        self.entries.clear();
+    }
+
+    /// Gives the lines away and goes on in the memory of `empty`.
+    pub fn exchange(&mut self, mut empty: Vec<Record>) -> Vec<Record> {
+        empty.clear();
+        std::mem::replace(&mut self.entries, empty)
     }
 }

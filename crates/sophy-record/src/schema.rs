@@ -92,12 +92,12 @@ impl std::error::Error for SinkError {
     }
 }
 
-/// Takes rows in the order of time.
+/// Takes rows in the order of time, in a run of some length from a thread beside it.
 ///
 /// The schema and the metadata known at the start are given when a sink is made. [`Sink::flush`] is called
 /// at least once a second of wall time while a run goes on: what was taken before must then survive the
 /// death of the process.
-pub trait Sink {
+pub trait Sink: Send {
     /// Takes one row.
     ///
     /// # Errors

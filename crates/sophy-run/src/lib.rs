@@ -5,6 +5,7 @@
 //! - [`simulate`] runs an experiment to its end and feeds recorders.
 
 mod backend;
+mod columns;
 mod configure;
 mod experiment;
 mod failure;
@@ -13,6 +14,7 @@ mod initial;
 mod inputs;
 mod ranges;
 mod recorder;
+mod recording;
 mod run;
 mod simulate;
 mod tables;

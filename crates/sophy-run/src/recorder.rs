@@ -1,14 +1,14 @@
 //! From journal to rows: what was recorded is evaluated after the fact, on the segments themselves.
 
-use crate::configure::{names, unknown};
-use crate::experiment::{Experiment, ExperimentError, matches};
+use crate::columns::{Label, Real, Shown, available, chosen};
+use crate::experiment::{Experiment, ExperimentError};
 use crate::grid::Grid;
 use crate::run::Run;
-use rustc_hash::FxHashSet;
-use sophy_field::{AlgebraicIndex, Jet, LocationIndex, NOW, Record, SourceIndex, WatchIndex};
-use sophy_ir::{Leaf, Linearity, NodeId, Quantity, System};
-use sophy_record::{Column, ColumnKind, Row, Schema, Sink, SinkError, Trajectory};
-use sophy_segment::Sign;
+use sophy_codegen::Compiled;
+use sophy_field::{AlgebraicIndex, Jet, LocationIndex, NOW, Record, SourceIndex};
+use sophy_ir::{Leaf, Linearity, NodeId, System};
+use sophy_record::{Column, Row, Schema, Sink, SinkError, Trajectory};
+use std::sync::Arc;
 
 /// Turns the journal of a run into rows for sinks, and into a trajectory if one is wanted.
 ///
@@ -17,6 +17,7 @@ use sophy_segment::Sign;
 /// rows in between, at least every 500th of the run.
 #[derive(Debug)]
 pub struct Recorder {
+    compiled: Arc<Compiled>,
     schema: Schema,
     reals: Vec<Real>,
     labels: Vec<Label>,
@@ -25,7 +26,10 @@ pub struct Recorder {
     locations: Vec<LocationIndex>,
     /// Number of states; inputs follow them.
     states: usize,
+    /// What the programs of outputs read: the same segments.
     memory: Vec<f64>,
+    /// Whether an output reads a source.
+    read: Vec<bool>,
     grid: Option<Grid>,
     microsteps: bool,
     /// An instant whose values are complete only when something later comes.
@@ -45,26 +49,7 @@ pub struct Recorder {
     label_values: Vec<u32>,
     /// The exact trajectory, if wanted.
     pub trajectory: Option<Trajectory>,
-    /// Kinks crossed since they were last drained, if the experiment asks for them.
-    pub(crate) switches: Vec<(f64, WatchIndex, Sign)>,
-    keep_switches: bool,
     rows: u64,
-}
-
-/// What a real column shows.
-#[derive(Clone, Copy, Debug)]
-enum Real {
-    Source(SourceIndex),
-    Output(usize),
-}
-
-/// What a label column shows.
-#[derive(Clone, Copy, Debug)]
-enum Label {
-    /// The location of an automaton.
-    Location(usize),
-    /// A truth value or the number of a text, at most `last`.
-    Value { value: Real, last: u32 },
 }
 
 impl Recorder {
@@ -81,6 +66,8 @@ impl Recorder {
         }
         segments[layout.time().position()] = (0.0, [0.0, 1.0, 0.0, 0.0]);
         let mut recorder = Recorder {
+            compiled: Arc::clone(run.compiled()),
+            read: vec![false; segments.len()],
             schema: Schema { columns: Vec::new(), with_step: experiment.microsteps },
             reals: Vec::new(),
             labels: Vec::new(),
@@ -102,8 +89,6 @@ impl Recorder {
             values: Vec::new(),
             label_values: Vec::new(),
             trajectory: None,
-            switches: Vec::new(),
-            keep_switches: experiment.all_events,
             rows: 0,
         };
         let available = available(system, layout.states);
@@ -121,7 +106,25 @@ impl Recorder {
         if recorder.shows_curves(system) {
             recorder.longest = recorder.span / LEAST_ROWS;
         }
+        recorder.find_read(system);
+        for source in 0..recorder.segments.len() {
+            let (start, coefficients) = recorder.segments[source];
+            recorder.follow(source, start, coefficients);
+        }
         Ok(recorder)
+    }
+
+    /// Marks the sources that a recorded output reads, in any location.
+    fn find_read(&mut self, system: &System) {
+        let e = &self.compiled.equations;
+        for shown in shown_of(&self.reals, &self.labels) {
+            let Real::Output(index) = shown else { continue };
+            let first = e.outputs[index].first as usize;
+            let formulas = &e.formulas[first..][..system.outputs[index].value.by_location.len()];
+            for source in formulas.iter().flat_map(|formula| e.sources(&formula.sources)) {
+                self.read[source.position()] = true;
+            }
+        }
     }
 
     /// Whether a column can move by more than the steps of states tell.
@@ -130,11 +133,7 @@ impl Recorder {
         for (z, algebraic) in system.algebraics.iter().enumerate() {
             linearity.algebraic(&system.graph, AlgebraicIndex::new(z), &algebraic.value);
         }
-        let labels = self.labels.iter().filter_map(|label| match label {
-            Label::Value { value, .. } => Some(*value),
-            Label::Location(_) => None,
-        });
-        let mut outputs = self.reals.iter().copied().chain(labels).filter_map(|shown| match shown {
+        let mut outputs = shown_of(&self.reals, &self.labels).filter_map(|shown| match shown {
             Real::Output(index) => system.outputs.get(index),
             Real::Source(_) => None,
         });
@@ -174,27 +173,25 @@ impl Recorder {
         self.rows
     }
 
-    /// Takes what the run has written since the last call.
+    /// Takes lines of the run's journal, in their order.
     ///
     /// # Errors
     /// That of a sink.
-    pub fn consume(&mut self, run: &mut Run, sinks: &mut [&mut dyn Sink]) -> Result<(), SinkError> {
-        let compiled = std::sync::Arc::clone(run.compiled());
-        let records: Vec<Record> = run.journal.drain().collect();
-        for record in records {
+    pub fn consume(&mut self, lines: &[Record], sinks: &mut [&mut dyn Sink]) -> Result<(), SinkError> {
+        let compiled = Arc::clone(&self.compiled);
+        for &record in lines {
             self.before(&compiled, record, sinks)?;
             self.apply(record);
         }
         Ok(())
     }
 
-    /// Gives the rows that complete the result at the run's present time.
+    /// Gives the rows that complete the result at `end`, the time the run has reached (s).
     ///
     /// # Errors
     /// That of a sink.
-    pub fn finish(&mut self, run: &Run, sinks: &mut [&mut dyn Sink]) -> Result<(), SinkError> {
-        let compiled = std::sync::Arc::clone(run.compiled());
-        let end = run.time();
+    pub fn finish(&mut self, end: f64, sinks: &mut [&mut dyn Sink]) -> Result<(), SinkError> {
+        let compiled = Arc::clone(&self.compiled);
         self.complete(&compiled, sinks)?;
         match self.grid {
             Some(_) => self.grid_before(&compiled, end.next_up(), sinks),
@@ -208,7 +205,7 @@ impl Recorder {
     /// Rows that are due before a record is applied.
     fn before(
         &mut self,
-        compiled: &sophy_codegen::Compiled,
+        compiled: &Compiled,
         record: Record,
         sinks: &mut [&mut dyn Sink],
     ) -> Result<(), SinkError> {
@@ -247,14 +244,13 @@ impl Recorder {
     fn apply(&mut self, record: Record) {
         match record {
             Record::Segment { time, state, coefficients } => {
-                self.segments[state.position()] = (time, coefficients);
+                self.follow(state.position(), time, coefficients);
                 if let Some(trajectory) = &mut self.trajectory {
                     trajectory.push_segment(state.position(), time, coefficients);
                 }
             }
             Record::Input { time, input, value, slope } => {
-                let at = self.states + input.position();
-                self.segments[at] = (time, [value, slope, 0.0, 0.0]);
+                self.follow(self.states + input.position(), time, [value, slope, 0.0, 0.0]);
             }
             Record::Location { time, automaton, location } => {
                 self.locations[automaton.position()] = location;
@@ -262,20 +258,24 @@ impl Recorder {
                     trajectory.push_location(automaton.position(), time, location.0);
                 }
             }
-            Record::Switch { time, watch, sign } => {
-                if self.keep_switches {
-                    self.switches.push((time, watch, sign));
-                }
-            }
-            Record::Jump { .. } | Record::Step { .. } => {}
+            Record::Jump { .. } | Record::Step { .. } | Record::Switch { .. } => {}
         }
     }
 
-    fn complete(
-        &mut self,
-        compiled: &sophy_codegen::Compiled,
-        sinks: &mut [&mut dyn Sink],
-    ) -> Result<(), SinkError> {
+    /// A source goes on along a segment. Programs read it themselves, so nothing is evaluated for them row by row.
+    #[inline]
+    fn follow(&mut self, source: usize, start: f64, coefficients: Jet) {
+        self.segments[source] = (start, coefficients);
+        if self.read[source] {
+            let [c0, c1, c2, c3] = coefficients;
+            // Outputs know no −0 at the beginning of a segment: what they show must not depend on the sign of nothing.
+            let jet = [c0 + 0.0, c1, c2, c3];
+            let source = SourceIndex(source as u32);
+            self.compiled.equations.layout.set_integrated(&mut self.memory, source, &jet, start);
+        }
+    }
+
+    fn complete(&mut self, compiled: &Compiled, sinks: &mut [&mut dyn Sink]) -> Result<(), SinkError> {
         match self.pending.take() {
             Some((time, step)) if self.grid.is_none() => {
                 let step = if self.microsteps { step } else { 0 };
@@ -292,7 +292,7 @@ impl Recorder {
     /// instant later.
     fn rows_at_kink(
         &mut self,
-        compiled: &sophy_codegen::Compiled,
+        compiled: &Compiled,
         time: f64,
         step: u32,
         sinks: &mut [&mut dyn Sink],
@@ -322,7 +322,7 @@ impl Recorder {
     /// Rows between events.
     fn fill_before(
         &mut self,
-        compiled: &sophy_codegen::Compiled,
+        compiled: &Compiled,
         time: f64,
         sinks: &mut [&mut dyn Sink],
     ) -> Result<(), SinkError> {
@@ -338,7 +338,7 @@ impl Recorder {
 
     fn grid_before(
         &mut self,
-        compiled: &sophy_codegen::Compiled,
+        compiled: &Compiled,
         time: f64,
         sinks: &mut [&mut dyn Sink],
     ) -> Result<(), SinkError> {
@@ -356,7 +356,7 @@ impl Recorder {
 
     fn row(
         &mut self,
-        compiled: &sophy_codegen::Compiled,
+        compiled: &Compiled,
         time: f64,
         step: u32,
         sinks: &mut [&mut dyn Sink],
@@ -366,7 +366,7 @@ impl Recorder {
     }
 
     /// The values of all columns.
-    fn evaluate(&mut self, compiled: &sophy_codegen::Compiled, time: f64) {
+    fn evaluate(&mut self, compiled: &Compiled, time: f64) {
         self.values.clear();
         for position in 0..self.reals.len() {
             let value = self.value(compiled, self.reals[position], time);
@@ -393,21 +393,26 @@ impl Recorder {
         Ok(())
     }
 
-    fn value(&mut self, compiled: &sophy_codegen::Compiled, real: Real, time: f64) -> f64 {
+    fn value(&mut self, compiled: &Compiled, real: Real, time: f64) -> f64 {
         let e = &compiled.equations;
         match real {
             Real::Source(source) => at(self.segments[source.position()], time),
             Real::Output(index) => {
                 let formula = e.selected(e.outputs[index], &self.locations);
                 self.memory[NOW] = time;
-                for &source in e.sources(&formula.sources) {
-                    let value = at(self.segments[source.position()], time);
-                    e.layout.set_integrated(&mut self.memory, source, &[value], time);
-                }
                 e.formula(formula, &self.locations, &mut self.memory, 1)[0]
             }
         }
     }
+}
+
+/// What all columns but locations show.
+fn shown_of(reals: &[Real], labels: &[Label]) -> impl Iterator<Item = Real> {
+    let labels = labels.iter().filter_map(|label| match label {
+        Label::Value { value, .. } => Some(*value),
+        Label::Location(_) => None,
+    });
+    reals.iter().copied().chain(labels)
 }
 
 /// How many rows a run has at least if an output is curved.
@@ -420,125 +425,4 @@ const SAME: f64 = 1e-6;
 fn at((start, [c0, c1, c2, c3]): (f64, Jet), time: f64) -> f64 {
     let s = time - start;
     c0 + s * (c1 + s * (c2 + s * c3))
-}
-
-/// A column that could be recorded.
-struct Available {
-    name: String,
-    unit: Option<String>,
-    kind: ColumnKind,
-    shown: Shown,
-    by_default: bool,
-    is_state: bool,
-}
-
-enum Shown {
-    Real(Real),
-    Label(Label),
-}
-
-/// The columns asked for, in the order in which the patterns ask for them; by default outputs and locations.
-fn chosen<'a>(
-    available: &'a [Available],
-    patterns: Option<&[String]>,
-) -> Result<Vec<&'a Available>, Vec<ExperimentError>> {
-    let Some(patterns) = patterns else {
-        // A model without outputs shows its states.
-        let no_outputs = !available.iter().any(Available::is_output);
-        let wanted = |column: &&Available| column.by_default || (no_outputs && column.is_state);
-        return Ok(available.iter().filter(wanted).collect());
-    };
-    let (mut columns, mut errors) = (Vec::new(), Vec::new());
-    let mut taken = vec![false; available.len()];
-    for pattern in patterns {
-        let mut any = false;
-        for (column, taken) in available.iter().zip(&mut taken) {
-            if matches(pattern, &column.name) {
-                any = true;
-                if !std::mem::replace(taken, true) {
-                    columns.push(column);
-                }
-            }
-        }
-        if !any {
-            errors.push(unknown("record", "variable", pattern, &names(available, |c| &c.name)));
-        }
-    }
-    if errors.is_empty() { Ok(columns) } else { Err(errors) }
-}
-
-impl Available {
-    fn is_output(&self) -> bool {
-        let value = match self.shown {
-            Shown::Real(value) | Shown::Label(Label::Value { value, .. }) => Some(value),
-            Shown::Label(Label::Location(_)) => None,
-        };
-        matches!(value, Some(Real::Output(_)))
-    }
-}
-
-/// Outputs, then states and inputs that are not outputs of the same name, then locations.
-fn available<'a>(system: &'a System, states: u32) -> Vec<Available> {
-    let mut columns: Vec<Available> = Vec::new();
-    let mut taken: FxHashSet<&str> = FxHashSet::default();
-    let mut add = |name: &'a str, unit: &Option<String>, (kind, shown), by_default: bool, is_state: bool| {
-        if taken.insert(name) {
-            columns.push(Available {
-                name: name.to_owned(),
-                unit: unit.clone(),
-                kind,
-                shown,
-                by_default,
-                is_state,
-            });
-        }
-    };
-    let shown = |quantity: Quantity, value: Real| shown(quantity, value, &system.texts);
-    for (index, y) in system.outputs.iter().enumerate() {
-        add(&y.name, &y.unit, shown(y.quantity, Real::Output(index)), true, false);
-    }
-    for (index, x) in system.states.iter().enumerate() {
-        let source = Real::Source(SourceIndex(index as u32));
-        add(&x.name, &x.unit, shown(x.quantity, source), false, true);
-    }
-    for (index, u) in system.inputs.iter().enumerate() {
-        let source = Real::Source(SourceIndex(states + index as u32));
-        add(&u.name, &u.unit, shown(u.quantity, source), false, false);
-    }
-    for (index, automaton) in system.automata.iter().enumerate() {
-        // A component that was written without locations has one without a name.
-        let written = automaton.locations.iter().any(|location| !location.name.is_empty());
-        if automaton.role != sophy_ir::Role::Component || !written {
-            continue;
-        }
-        let name = match automaton.name.as_str() {
-            "" => "location".to_owned(),
-            component => format!("{component}.location"),
-        };
-        columns.push(Available {
-            name,
-            unit: None,
-            kind: ColumnKind::Label(automaton.locations.iter().map(|l| l.name.clone()).collect()),
-            shown: Shown::Label(Label::Location(index)),
-            by_default: automaton.locations.len() > 1,
-            is_state: false,
-        });
-    }
-    columns
-}
-
-/// A value as people read it: truth values and texts by their names.
-fn shown(quantity: Quantity, value: Real, texts: &[String]) -> (ColumnKind, Shown) {
-    let names = match quantity {
-        Quantity::Boolean => vec!["false".to_owned(), "true".to_owned()],
-        Quantity::Text => texts.to_vec(),
-        Quantity::Real | Quantity::Integer => Vec::new(),
-    };
-    match names.len().checked_sub(1) {
-        Some(last) => {
-            let label = Label::Value { value, last: u32::try_from(last).unwrap_or(u32::MAX) };
-            (ColumnKind::Label(names), Shown::Label(label))
-        }
-        None => (ColumnKind::Real, Shown::Real(value)),
-    }
 }

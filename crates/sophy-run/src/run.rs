@@ -262,7 +262,7 @@ impl Run {
         self.control = snapshot.control.clone();
         self.inputs = snapshot.inputs.clone();
         self.time = snapshot.time;
-        let _ = self.journal.drain();
+        self.journal.clear();
         self.taken.clear();
     }
 

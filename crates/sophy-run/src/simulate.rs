@@ -1,12 +1,14 @@
 use crate::experiment::{Experiment, ExperimentError};
 use crate::failure::Failure;
 use crate::recorder::Recorder;
+use crate::recording::{Recording, Rows};
 use crate::run::{Pause, Run, RunStatistics, StartError};
-use sophy_field::WatchIndex;
+use sophy_field::{Record, WatchIndex};
 use sophy_hybrid::{Accumulation, Taken};
 use sophy_record::{EventRecord, Sink, SinkError};
 use sophy_segment::Sign;
 use std::ops::ControlFlow;
+use std::thread::Scope;
 use std::time::{Duration, Instant};
 
 /// How a run ended. None of these is an error.
@@ -116,6 +118,8 @@ impl From<StartError> for SimulateError {
 
 /// Engine steps between two looks at the clock, at most and at first; fewer if they take long.
 const BURST: u64 = 16_384;
+/// Lines of the journal between two looks, about at most: what is written and soon read should stay in the cache.
+const BLOCK: usize = 16_384;
 /// Wall time that steps between two looks should take.
 const GLANCE: Duration = Duration::from_millis(50);
 /// Wall time between two flushes.
@@ -123,6 +127,9 @@ const FLUSH_EVERY: Duration = Duration::from_millis(400);
 
 /// Runs `run` to the experiment's stop, recording into `sinks`. The sinks are not finished: their owner adds
 /// the outcome.
+///
+/// Of a run of some length rows are made by a second thread, which is over when this returns. The run waits for it
+/// where sinks are slow.
 ///
 /// # Errors
 /// [`SimulateError`]; the sinks have then been given everything up to the failure.
@@ -133,23 +140,40 @@ pub fn simulate(
     sinks: &mut [&mut dyn Sink],
     observer: &mut dyn Observer,
 ) -> Result<Report, SimulateError> {
+    let sinks = sinks.iter_mut().map(|sink| &mut **sink as &mut dyn Sink).collect();
+    let rows = Rows { recorder, sinks };
+    std::thread::scope(|scope| go(run, experiment, scope, rows, observer))
+}
+
+fn go<'scope, 'a: 'scope>(
+    run: &mut Run,
+    experiment: &Experiment,
+    scope: &'scope Scope<'scope, '_>,
+    rows: Rows<'a>,
+    observer: &mut dyn Observer,
+) -> Result<Report, SimulateError> {
     let begin = Instant::now();
     let mut flushed = begin;
     let mut burst = BURST;
+    let mut recording = Recording::Here(rows);
     let outcome = loop {
         let glance = Instant::now();
         let pause = run.advance(experiment.stop, burst);
         // How often it pauses does not change a bit of the run.
-        burst = if glance.elapsed() > GLANCE { (burst / 2).max(1) } else { (burst * 2).min(BURST) };
-        recorder.consume(run, sinks)?;
-        let events = events(run, recorder);
+        let long = glance.elapsed() > GLANCE || run.journal.len() > BLOCK;
+        burst = if long { (burst / 2).max(1) } else { (burst * 2).min(BURST) };
+        if matches!(pause, Ok(Pause::Budget)) {
+            recording = recording.beside(scope);
+        }
+        let events = events(run, experiment);
+        recording = recording.consume(&mut run.journal)?;
         observer.events(&events)?;
         let finished = match pause {
             Ok(Pause::Budget) => None,
             Ok(Pause::Reached) => Some(Outcome::Reached),
             Ok(Pause::Zeno(accumulation)) => Some(Outcome::Zeno(accumulation)),
             Err(failure) => {
-                recorder.finish(run, sinks)?;
+                recording.finish(run.time())?;
                 return Err(SimulateError::Failure(failure));
             }
         };
@@ -157,9 +181,7 @@ pub fn simulate(
             break outcome;
         }
         if flushed.elapsed() >= FLUSH_EVERY {
-            for sink in sinks.iter_mut() {
-                sink.flush()?;
-            }
+            recording = recording.flush()?;
             observer.flush()?;
             flushed = Instant::now();
         }
@@ -168,21 +190,26 @@ pub fn simulate(
             break Outcome::Interrupted;
         }
     };
-    recorder.finish(run, sinks)?;
+    let rows = recording.finish(run.time())?;
     Ok(Report {
         outcome,
         time: run.time(),
         elapsed: begin.elapsed(),
         statistics: run.statistics(),
         native: run.is_native(),
-        rows: recorder.rows(),
+        rows,
     })
 }
 
 /// What happened since the last burst, in the order of time; of one time kinks come first.
-fn events(run: &mut Run, recorder: &mut Recorder) -> Vec<EventRecord> {
-    let mut events: Vec<EventRecord> =
-        recorder.switches.drain(..).map(|(time, watch, sign)| switch(run, time, watch, sign)).collect();
+fn events(run: &mut Run, experiment: &Experiment) -> Vec<EventRecord> {
+    let mut events = Vec::new();
+    if experiment.all_events {
+        events.extend(run.journal.lines().iter().filter_map(|line| match *line {
+            Record::Switch { time, watch, sign } => Some(switch(run, time, watch, sign)),
+            _ => None,
+        }));
+    }
     events.extend(run.taken.iter().map(|taken| event(run, taken)));
     events.sort_by(|a, b| a.time.total_cmp(&b.time));
     run.taken.clear();

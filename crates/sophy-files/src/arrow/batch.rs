@@ -47,7 +47,12 @@ pub(super) fn take_batch(
     schema: &SchemaRef,
     dictionaries: &[ArrayRef],
 ) -> Result<RecordBatch, ArrowError> {
-    let real = |values: &mut Vec<f64>| Arc::new(Float64Array::from(std::mem::take(values))) as ArrayRef;
+    // The next batch will be about as long.
+    let rows = table.len();
+    let real = |values: &mut Vec<f64>| {
+        let values = std::mem::replace(values, Vec::with_capacity(rows));
+        Arc::new(Float64Array::from(values)) as ArrayRef
+    };
     let mut arrays = vec![real(&mut table.time)];
     if table.schema.with_step {
         arrays.push(Arc::new(UInt32Array::from(std::mem::take(&mut table.step))));

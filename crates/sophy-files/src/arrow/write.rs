@@ -9,7 +9,7 @@ use sophy_record::{Metadata, Row, Schema, Sink, SinkError, Table};
 
 use super::batch::{arrow_schema, dictionaries, take_batch};
 use crate::FileError;
-use crate::columns::check_row;
+use crate::columns::RowShape;
 use crate::description::{Description, sidecar_path};
 use crate::path::remove_if_there;
 
@@ -21,6 +21,7 @@ pub(crate) struct ArrowSink {
     path: PathBuf,
     stream: StreamWriter<BufWriter<File>>,
     schema: SchemaRef,
+    shape: RowShape,
     dictionaries: Vec<ArrayRef>,
     /// Rows of the next message, and the metadata of the start.
     pending: Table,
@@ -31,9 +32,11 @@ impl ArrowSink {
         remove_if_there(&sidecar_path(path))?;
         let file = BufWriter::new(File::create(path).map_err(FileError::writing(path))?);
         let pending = Table::new(schema.clone(), metadata.clone());
+        let shape = RowShape::of(schema);
         let (schema, dictionaries) = (arrow_schema(schema, metadata), dictionaries(schema));
         let started = StreamWriter::try_new(file, &schema).and_then(|stream| {
-            let mut sink = ArrowSink { path: path.to_path_buf(), stream, schema, dictionaries, pending };
+            let mut sink =
+                ArrowSink { path: path.to_path_buf(), stream, schema, shape, dictionaries, pending };
             // An empty first message carries the names of labels, so that they stand whatever happens.
             sink.message()?;
             sink.stream.flush()?;
@@ -60,7 +63,7 @@ impl ArrowSink {
 
 impl Sink for ArrowSink {
     fn row(&mut self, row: Row<'_>) -> Result<(), SinkError> {
-        check_row(&self.pending.schema, &row).map_err(|e| self.failed(e))?;
+        self.shape.check(&self.pending.schema, &row).map_err(|e| self.failed(e))?;
         self.pending.row(row)?;
         if self.pending.len() >= BATCH {
             self.message().map_err(|e| self.failed(e))?;

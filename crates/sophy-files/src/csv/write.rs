@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use sophy_record::{ColumnKind, Metadata, Row, Schema, Sink, SinkError};
 
 use crate::FileError;
-use crate::columns::check_row;
+use crate::columns::RowShape;
 use crate::description::Description;
 use crate::number::push_number;
 
@@ -19,9 +19,20 @@ pub(crate) struct CsvSink {
     /// `None` for stdout.
     path: Option<PathBuf>,
     schema: Schema,
+    shape: RowShape,
+    /// In the order of the file.
+    columns: Vec<Cell>,
     metadata: Metadata,
-    lines: csv::Writer<Box<dyn Write + Send>>,
-    cell: String,
+    out: Box<dyn Write + Send>,
+    /// Lines that `out` has not been given yet.
+    lines: String,
+}
+
+/// What a row has for a column.
+enum Cell {
+    Real,
+    /// One of these, as they stand in the file.
+    Label(Vec<String>),
 }
 
 impl CsvSink {
@@ -41,43 +52,50 @@ impl CsvSink {
         schema: &Schema,
         metadata: &Metadata,
     ) -> Result<Self, FileError> {
-        let lines = csv::WriterBuilder::new().buffer_capacity(BUFFER).from_writer(out);
-        let (schema, metadata) = (schema.clone(), metadata.clone());
-        let mut sink = CsvSink { path, schema, metadata, lines, cell: String::new() };
-        sink.head().map_err(FileError::writing(sink.name()))?;
+        let columns = schema.columns.iter().map(|column| match &column.kind {
+            ColumnKind::Real => Cell::Real,
+            ColumnKind::Label(names) => Cell::Label(names.iter().map(|name| quoted(name)).collect()),
+        });
+        let mut sink = CsvSink {
+            path,
+            schema: schema.clone(),
+            shape: RowShape::of(schema),
+            columns: columns.collect(),
+            metadata: metadata.clone(),
+            out,
+            lines: head(schema),
+        };
+        sink.hand_over().map_err(FileError::writing(sink.name()))?;
         Ok(sink)
     }
 
-    fn head(&mut self) -> io::Result<()> {
-        self.lines.write_field("time")?;
+    fn line(&mut self, row: Row<'_>) {
+        let lines = &mut self.lines;
+        push_number(lines, row.time);
         if self.schema.with_step {
-            self.lines.write_field("step")?;
-        }
-        for column in &self.schema.columns {
-            self.lines.write_field(&column.name)?;
-        }
-        self.lines.write_record(None::<&[u8]>)?;
-        self.lines.flush()
-    }
-
-    fn line(&mut self, row: Row<'_>) -> csv::Result<()> {
-        number(&mut self.lines, &mut self.cell, row.time)?;
-        if self.schema.with_step {
-            self.lines.write_field(row.step.to_string())?;
+            lines.push(',');
+            lines.push_str(&row.step.to_string());
         }
         let (mut reals, mut labels) = (row.reals.iter(), row.labels.iter());
-        for column in &self.schema.columns {
-            match &column.kind {
-                ColumnKind::Real => {
-                    number(&mut self.lines, &mut self.cell, *reals.next().unwrap_or(&f64::NAN))?;
-                }
-                ColumnKind::Label(names) => {
+        for column in &self.columns {
+            lines.push(',');
+            match column {
+                Cell::Real => push_number(lines, *reals.next().unwrap_or(&f64::NAN)),
+                Cell::Label(names) => {
                     let name = labels.next().and_then(|&position| names.get(position as usize));
-                    self.lines.write_field(name.map_or("", String::as_str))?;
+                    lines.push_str(name.map_or("", String::as_str));
                 }
             }
         }
-        self.lines.write_record(None::<&[u8]>)
+        lines.push('\n');
+    }
+
+    fn hand_over(&mut self) -> io::Result<()> {
+        let written = self.out.write_all(self.lines.as_bytes());
+        // Part of them may stand in the file: a second try would write that twice.
+        self.lines.clear();
+        written?;
+        self.out.flush()
     }
 
     fn name(&self) -> &Path {
@@ -89,20 +107,31 @@ impl CsvSink {
     }
 }
 
-fn number(lines: &mut csv::Writer<Box<dyn Write + Send>>, cell: &mut String, value: f64) -> csv::Result<()> {
-    cell.clear();
-    push_number(cell, value);
-    lines.write_field(&*cell)
+fn head(schema: &Schema) -> String {
+    let step = schema.with_step.then_some("step");
+    let names = schema.columns.iter().map(|column| column.name.as_str());
+    let cells: Vec<String> = std::iter::once("time").chain(step).chain(names).map(quoted).collect();
+    cells.join(",") + "\n"
+}
+
+/// A text as a cell. Numbers need no quotes.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
 }
 
 impl Sink for CsvSink {
     fn row(&mut self, row: Row<'_>) -> Result<(), SinkError> {
-        check_row(&self.schema, &row).map_err(|e| self.failed(e))?;
-        self.line(row).map_err(|e| self.failed(e))
+        self.shape.check(&self.schema, &row).map_err(|e| self.failed(e))?;
+        self.line(row);
+        if self.lines.len() >= BUFFER { self.flush() } else { Ok(()) }
     }
 
     fn flush(&mut self) -> Result<(), SinkError> {
-        self.lines.flush().map_err(|e| self.failed(e))
+        self.hand_over().map_err(|e| self.failed(e))
     }
 
     fn finish(&mut self, metadata: &Metadata) -> Result<(), SinkError> {

@@ -13,6 +13,7 @@ mod inputs;
 mod jacobian;
 mod limits;
 mod promises;
+mod recording;
 mod shapes;
 mod simultaneous;
 mod stiff;
