@@ -145,3 +145,21 @@ impl Sink for CsvSink {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::quoted;
+
+    #[test]
+    fn texts_have_the_quotes_that_the_reader_expects() {
+        let texts = ["x", "a b", " a ", "a,b", "a\"b", "\"", "two\nlines", "\r", "", "Größe", "a;b", "#"];
+        for text in texts {
+            let mut lines = csv::Writer::from_writer(Vec::new());
+            lines.write_record(["0", text]).unwrap();
+            let expected = String::from_utf8(lines.into_inner().unwrap()).unwrap();
+            assert_eq!(format!("0,{}\n", quoted(text)), expected);
+        }
+    }
+}

@@ -11,7 +11,11 @@ use std::sync::Arc;
 const LONG: u64 = 40_000;
 
 fn long(method: Method) -> Experiment {
-    let quantum = if method == Method::Qss1 { 2e-3 } else { 1e-4 };
+    let quantum = match method {
+        Method::Qss1 => 2e-3,
+        Method::Liqss2 => 1e-5,
+        _ => 1e-4,
+    };
     by(method, to(90.0, quantum))
 }
 
