@@ -1,7 +1,7 @@
 //! `recording`: what it costs to record ten variables of the hopper, beside the same run with nothing recorded.
 
 use crate::language::model;
-use crate::measure::{Time, medians, median, timed};
+use crate::measure::{Time, median, medians, timed};
 use sophy_files::open_sink;
 use sophy_passes::lower;
 use sophy_record::{Metadata, Sink, Table};
@@ -42,8 +42,12 @@ enum Into {
 
 /// Nothing, a table in memory, CSV and Parquet, in turn.
 pub fn bench() -> Vec<Recorded> {
-    let kinds =
-        [("nothing", Into::Nothing), ("memory", Into::Memory), ("CSV", Into::File("csv")), ("Parquet", Into::File("parquet"))];
+    let kinds = [
+        ("nothing", Into::Nothing),
+        ("memory", Into::Memory),
+        ("CSV", Into::File("csv")),
+        ("Parquet", Into::File("parquet")),
+    ];
     let system = Arc::new(lower(&model(&with_outputs(), &mut Vec::new())).expect("it is sound"));
     let experiment = Experiment {
         stop: STOP,

@@ -243,7 +243,19 @@ impl Equations {
         self.result(formula.result, memory, orders)
     }
 
-    /// The same over a stretch of time: enclosures of value, derivative and half the second derivative.
+    /// Its value alone: what a program has just written is read as it was written, number by number.
+    #[inline]
+    pub fn value(&self, formula: &Formula, locations: &[LocationIndex], memory: &mut [f64]) -> f64 {
+        for entry in self.entries(&formula.before) {
+            self.execute(&self.calls[entry.at(locations)], memory, 1);
+        }
+        self.execute(&formula.call, memory, 1);
+        match formula.result {
+            Operand::Scalar(at) | Operand::Jet(at) => memory[at as usize],
+        }
+    }
+
+    /// Enclosures over a stretch of time: of value, derivative and half the second derivative.
     pub fn formula_enclosed(
         &self,
         formula: &Formula,

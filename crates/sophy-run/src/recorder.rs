@@ -400,7 +400,7 @@ impl Recorder {
             Real::Output(index) => {
                 let formula = e.selected(e.outputs[index], &self.locations);
                 self.memory[NOW] = time;
-                e.formula(formula, &self.locations, &mut self.memory, 1)[0]
+                e.value(formula, &self.locations, &mut self.memory)
             }
         }
     }

@@ -8,7 +8,9 @@ use std::sync::mpsc::{Receiver, RecvError, SendError, Sender, channel};
 use std::thread::{Builder, Scope, ScopedJoinHandle};
 
 /// So many lines of the journal may wait to be made into rows; then the run waits for a slow sink.
-pub(crate) const MOST_WAITING: usize = 1 << 19;
+const MOST_WAITING: usize = 1 << 18;
+/// Room in a new block; what is not used costs nothing.
+const ROOM: usize = 1 << 15;
 
 /// What makes rows, and where they go.
 pub(crate) struct Rows<'a> {
@@ -107,7 +109,7 @@ impl<'a> Beside<'_, 'a> {
                 Err(RecvError) => return Err(self.why()),
             }
         }
-        let spare = self.spare.pop().unwrap_or_else(|| Vec::with_capacity(lines));
+        let spare = self.spare.pop().unwrap_or_else(|| Vec::with_capacity(lines.max(ROOM)));
         self.waiting += lines;
         match self.orders.send(Order::Consume(journal.exchange(spare))) {
             Ok(()) => Ok(self),
