@@ -2,6 +2,7 @@
 
 use crate::language::model;
 use crate::measure::{Time, median, medians, timed};
+use cpu_time::ProcessTime;
 use sophy_files::open_sink;
 use sophy_passes::lower;
 use sophy_record::{Metadata, Sink, Table};
@@ -26,10 +27,13 @@ pub struct Recorded {
     pub run: Time,
     /// What the sink needs to complete the result after it.
     pub finish: Time,
-    /// Medians of the ratios to the run just before of which nothing was recorded, by the clock and in CPU time of the
-    /// thread.
-    pub wall_ratio: f64,
+    /// CPU time of the run in all threads, ms.
+    pub all_ms: f64,
+    /// Medians of the ratios to the run of the same round of which nothing was recorded: of the thread that runs the
+    /// engine, of all threads, and by the clock.
     pub cpu_ratio: f64,
+    pub all_ratio: f64,
+    pub wall_ratio: f64,
 }
 
 /// Where rows go.
@@ -58,45 +62,55 @@ pub fn bench() -> Vec<Recorded> {
         ..Experiment::default()
     };
     let begin = || Run::new(Arc::clone(&system), &experiment).expect("it starts");
-    let mut taken: Vec<Vec<(Time, Time)>> = vec![Vec::new(); kinds.len()];
+    let mut taken: Vec<Vec<Taken>> = vec![Vec::new(); kinds.len()];
     let mut rows = vec![0; kinds.len()];
     for repetition in 0..=REPETITIONS {
         for (kind, (_, into)) in kinds.iter().enumerate() {
-            let (run, finish, count) = record(begin(), &experiment, *into);
+            let (of_round, count) = record(begin(), &experiment, *into);
             rows[kind] = count;
             // The first round does not count.
             if repetition > 0 {
-                taken[kind].push((run, finish));
+                taken[kind].push(of_round);
             }
         }
     }
-    let ratio = |kind: usize, of: fn(&Time) -> f64| {
-        median(taken[kind].iter().zip(&taken[0]).map(|((time, _), (base, _))| of(time) / of(base)))
+    let ratio = |kind: usize, of: fn(&Taken) -> f64| {
+        median(taken[kind].iter().zip(&taken[0]).map(|(time, base)| of(time) / of(base)))
     };
-    kinds
-        .iter()
-        .enumerate()
-        .map(|(kind, (into, _))| {
-            let (runs, finishes): (Vec<Time>, Vec<Time>) = taken[kind].iter().copied().unzip();
-            Recorded {
-                into,
-                rows: rows[kind],
-                run: medians(&runs),
-                finish: medians(&finishes),
-                wall_ratio: ratio(kind, |time| time.wall_ms),
-                cpu_ratio: ratio(kind, |time| time.cpu_ms),
-            }
-        })
-        .collect()
+    let row = |(kind, (into, _)): (usize, &(&'static str, Into))| {
+        let runs: Vec<Time> = taken[kind].iter().map(|taken| taken.run).collect();
+        let finishes: Vec<Time> = taken[kind].iter().map(|taken| taken.finish).collect();
+        Recorded {
+            into,
+            rows: rows[kind],
+            run: medians(&runs),
+            finish: medians(&finishes),
+            all_ms: median(taken[kind].iter().map(|taken| taken.all_ms)),
+            cpu_ratio: ratio(kind, |taken| taken.run.cpu_ms),
+            all_ratio: ratio(kind, |taken| taken.all_ms),
+            wall_ratio: ratio(kind, |taken| taken.run.wall_ms),
+        }
+    };
+    kinds.iter().enumerate().map(row).collect()
 }
 
-/// The run, the completion of the result, and the rows.
-fn record(mut run: Run, experiment: &Experiment, into: Into) -> (Time, Time, u64) {
+/// What one run took.
+#[derive(Clone, Copy)]
+struct Taken {
+    run: Time,
+    all_ms: f64,
+    finish: Time,
+}
+
+/// What it took, and the rows.
+fn record(mut run: Run, experiment: &Experiment, into: Into) -> (Taken, u64) {
     if into == Into::Nothing {
         run.journal.wanted = false;
+        let begin = ProcessTime::now();
         let (pause, time) = timed(&mut || run.advance(STOP, u64::MAX).expect("it goes on"));
+        let all_ms = 1e3 * begin.elapsed().as_secs_f64();
         assert_eq!(pause, Pause::Reached);
-        return (time, Time { wall_ms: 0.0, cpu_ms: 0.0 }, 0);
+        return (Taken { run: time, all_ms, finish: Time { wall_ms: 0.0, cpu_ms: 0.0 } }, 0);
     }
     let mut recorder = Recorder::new(&run, experiment).expect("all names are known");
     assert_eq!(recorder.schema().columns.len(), COLUMNS);
@@ -105,12 +119,14 @@ fn record(mut run: Run, experiment: &Experiment, into: Into) -> (Time, Time, u64
         Into::File(extension) => open_sink(&file(extension), &schema, &metadata).expect("it opens"),
         _ => Box::new(Table::new(schema, metadata)),
     };
+    let begin = ProcessTime::now();
     let (report, time) = timed(&mut || {
         simulate(&mut run, &mut recorder, experiment, &mut [sink.as_mut()], &mut ()).expect("it goes on")
     });
+    let all_ms = 1e3 * begin.elapsed().as_secs_f64();
     let (finished, finish) = timed(&mut || sink.finish(&Metadata::default()));
     finished.expect("it is written");
-    (time, finish, report.rows)
+    (Taken { run: time, all_ms, finish }, report.rows)
 }
 
 fn file(extension: &str) -> PathBuf {

@@ -55,13 +55,21 @@ pub fn built_markdown(built: &[Built]) -> String {
 /// Recording, for people.
 pub fn recorded_markdown(recorded: &[Recorded]) -> String {
     let mut text = String::from(
-        "| recording | rows | run, ms | of its thread, ms | × nothing recorded | of its thread | completing the file, ms |\n\
-         | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        "| recording | rows | thread of the run, CPU, ms | all threads, CPU, ms | wall, ms | completing the file, ms | × thread | × all | × wall |\n\
+         | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
     );
     for r in recorded {
         text += &format!(
-            "| {} | {} | {:.1} | {:.1} | {:.2} | {:.2} | {:.1} |\n",
-            r.into, r.rows, r.run.wall_ms, r.run.cpu_ms, r.wall_ratio, r.cpu_ratio, r.finish.wall_ms,
+            "| {} | {} | {:.1} | {:.1} | {:.1} | {:.1} | {:.2} | {:.2} | {:.2} |\n",
+            r.into,
+            r.rows,
+            r.run.cpu_ms,
+            r.all_ms,
+            r.run.wall_ms,
+            r.finish.wall_ms,
+            r.cpu_ratio,
+            r.all_ratio,
+            r.wall_ratio,
         );
     }
     text
