@@ -91,7 +91,7 @@ proptest! {
         d0 in prop_oneof![3 => -0.99f64..0.99, 1 => Just(0.0)],
         d1 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0)],
         d2 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0)],
-        d3 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0), 1 => -1e-9f64..1e-9],
+        d3 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0), 2 => (-1.0f64..1.0, 0..240).prop_map(|(c, e): (f64, i32)| libm::scalbn(c, -e))],
     ) {
         let d = [d0, d1, d2, d3];
         let delay = cubic_leaves(d, 1.0);
@@ -109,6 +109,17 @@ proptest! {
             prop_assert!(value(d, s).abs() < 1.0 + 1e-12 * size, "{:?} left the band at {s}, predicted {delay}", d);
         }
     }
+}
+
+/// What rounding leaves of a cubic coefficient puts the next turn 10²³ times as far as the root.
+#[test]
+fn a_cubic_that_is_almost_a_parabola() {
+    let d = [0.000_586_963, -69.781, -469_039.4, 1.974_837_217_590_476_3e-13];
+    let delay = cubic_leaves(d, 1e-3);
+    assert!((value(d, delay).abs() - 1e-3).abs() < 1e-15, "{delay}");
+    let level = [d[0] + 1e-3, d[1], d[2], d[3]];
+    let crossing = cubic_crossing(level, Sign::Positive).expect("crosses");
+    assert!((crossing - delay).abs() < 1e-18 && crossing < 3e-5, "{crossing} {delay}");
 }
 
 #[test]

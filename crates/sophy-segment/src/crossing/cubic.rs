@@ -251,7 +251,13 @@ impl Cubic {
         let [_, _, c2, c3] = self.0;
         let inflection = -c2 / (3.0 * c3);
         let start = if inflection > from && inflection < to {
-            inflection
+            // Up to its inflection it becomes steeper, which may be very far: the root is not behind where the slope of
+            // `from`, or two thirds of the curvature there, would lead.
+            let (value, curvature) = (self.at(from), c2 + 3.0 * c3 * from);
+            let by_line = from + (value / self.slope_at(from)).abs();
+            let by_square = from + (1.5 * (value / curvature).abs()).sqrt();
+            let near = if by_line < by_square { by_line } else { by_square };
+            if near < inflection { near } else { inflection }
         } else {
             // Value and curvature have one sign at one end.
             let curvature = c2 + 1.5 * c3 * (from + to);

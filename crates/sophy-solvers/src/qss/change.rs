@@ -1,6 +1,7 @@
 //! Changes from outside: what they concern is evaluated afresh.
 
 use super::engine::Qss;
+use super::implicit::Ahead;
 use super::record::Place;
 use sophy_field::{AutomatonIndex, Entry, Equations, Fault, Journal, LocationIndex, SourceIndex, StateIndex};
 
@@ -83,6 +84,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         record.set_q([x, 0.0, 0.0], t);
         record.set_quantum(quantum);
         self.own[i].repeats = 0;
+        if self.settings.implicit {
+            self.ahead[i] = Ahead::NEW;
+        }
     }
 
     pub(super) fn set_state(&mut self, state: StateIndex, value: f64, t: f64) -> Result<(), Fault> {

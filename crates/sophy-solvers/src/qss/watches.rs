@@ -28,6 +28,8 @@ pub(super) struct WatchRecord {
     due: Due,
     /// Taken off the difference.
     pub(super) bias: f64,
+    /// When a crossing of it was last doubted, s.
+    pub(super) doubted: f64,
     /// Last sign change, or what was taken for one, s, and how often at that instant.
     last: f64,
     repeats: u32,
@@ -78,6 +80,7 @@ impl Default for WatchRecord {
             fresh: Fresh::No,
             due: Due::Root,
             bias: 0.0,
+            doubted: f64::NAN,
             last: f64::NEG_INFINITY,
             repeats: 0,
         }
@@ -150,6 +153,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         let c = self.difference(e, watch, t)?;
         let decided = self.watches[watch.position()].sign;
+        if self.settings.implicit && self.turns_back(e, watch, t)? {
+            return self.begin_at_x(e, watch, t, journal);
+        }
         let sign = if due == Due::Root && decided != Sign::Zero {
             // The difference is zero here, by what was located: the residue of rounding is taken off.
             self.watches[watch.position()].bias += c[0];
