@@ -29,7 +29,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let (before, x) = (record.tq(), record.x_from(t));
         self.count_repeats(i, before, t)?;
         // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
-        let mut quantum = self.own[i].quantum.at(x[0]);
+        let mut quantum = self.own[i].quantum.next(x[0]);
         let mut q = [x[0], if ORDER > 1 { x[1] } else { 0.0 }, if ORDER > 2 { x[2] } else { 0.0 }];
         if self.settings.implicit {
             q = self.quantise_ahead(e, i, t, quantum).unwrap_or(q);
