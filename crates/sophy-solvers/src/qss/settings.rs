@@ -9,7 +9,8 @@ pub struct Quantum {
     pub largest: bool,
 }
 
-/// Quanta are so much smaller than a tolerance: what an error is in quanta depends on the model, 1 to 40 in those tried.
+/// Quanta are so much smaller than a tolerance: what an error is in quanta depends on the model, up to 50
+/// in the examples (docs/book/accuracy.md).
 const MARGIN: f64 = 0.1;
 
 /// What is no larger than this, in the state's unit, counts as 0: a state that starts at 0 has no size of its own yet.
