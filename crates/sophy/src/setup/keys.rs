@@ -314,7 +314,7 @@ impl Reader<'_> {
 /// Whether a table is one quantum, not quanta by name.
 fn is_quantum(value: &Value<'_>) -> bool {
     let table = value.get_ref().as_table();
-    table.is_some_and(|table| QUANTUM.iter().any(|key| table.contains_key(*key)))
+    table.is_some_and(|table| ["absolute", "relative"].iter().any(|key| table.contains_key(*key)))
 }
 
 fn set<T>(target: &mut T, value: Option<T>) {
