@@ -179,16 +179,6 @@ pub enum Fault {
         /// When, s.
         time: f64,
     },
-    /// Two states, each stiff, quantise in turn and do not let each other rest.
-    #[error("{state} and {other} chase each other at t = {time} s")]
-    Chase {
-        /// The state.
-        state: StateIndex,
-        /// Who does not let it rest, and the reverse.
-        other: StateIndex,
-        /// When, s.
-        time: f64,
-    },
     /// A watch changes its sign again and again at one instant: the fields on both sides point at it.
     #[error("{watch} changes sign again and again at t = {time} s")]
     Chattering {

@@ -169,23 +169,6 @@ impl Reporter<'_> {
                 failure.helps.push(format!("give `{name}` a larger quantum"));
                 failure
             }
-            Fault::Chase { state, other, time } => {
-                let [one, two] = [state, other].map(|state| &self.system.states[state.position()].name);
-                let sentence = format!("states `{one}` and `{two}` chase each other at t = {time} s");
-                let mut failure = self.failure("SR0012", time, sentence);
-                failure.span = self.rate_span(state);
-                failure.notes.push(self.equation(state));
-                failure.notes.push(self.equation(other));
-                failure.notes.push(
-                    "each took thousands of steps without getting anywhere, because every one of them moves the \
-                     place where the other would rest"
-                        .to_owned(),
-                );
-                failure.helps.push(format!(
-                    "give `{one}` and `{two}` other quanta, or use an engine that is not implicit: `--method qss2`"
-                ));
-                failure
-            }
             Fault::Chattering { watch, time } => {
                 let text = self.watch_text(watch);
                 let mut failure = self.failure(

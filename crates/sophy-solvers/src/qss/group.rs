@@ -11,8 +11,8 @@
 //! their slopes: (I − hA + ½h²A²)q̇ = Ax + u + hu̇ − ½h²Au̇, q = x − ½h²(Aq̇ + u̇), and (I − hA)q = x + hu for the first order.
 //! Both are L-stable, so that they end at rest.
 
-use super::engine::{Failed, Qss};
-use sophy_field::{Equations, Fault, StateIndex};
+use super::engine::Qss;
+use sophy_field::{Equations, StateIndex};
 
 /// The most states of a group.
 const MOST: usize = 12;
@@ -22,8 +22,6 @@ const RESTLESS: u32 = 4;
 const ABOUT: f64 = 20.0;
 /// After so many steps a restless group takes joint steps.
 const HOPS: u32 = 40;
-/// A state that has taken so many steps there, each sooner than it comes to rest by itself, is chased by another one.
-const CHASE: u32 = 10_000;
 /// How often the motion of one step is doubled to see whether it dies out.
 const DOUBLINGS: u32 = 16;
 /// Joint steps last between 2⁻ˢ and 2ˢ times the time constant of the group.
@@ -39,27 +37,20 @@ pub(super) struct Whereabouts {
     anchor: f64,
     /// Steps since.
     steps: u32,
-    /// How many of them, up to the last one, came sooner than it would have come to rest.
-    early: u32,
     /// Whether it takes joint steps.
     joint: bool,
 }
 
 impl Whereabouts {
-    pub(super) const NEW: Whereabouts = Whereabouts { anchor: f64::NAN, steps: 0, early: 0, joint: false };
+    pub(super) const NEW: Whereabouts = Whereabouts { anchor: f64::NAN, steps: 0, joint: false };
 
-    /// A step at x, `early` if the state had no time to come to rest by itself.
-    pub(super) fn note(&mut self, x: f64, quantum: f64, early: bool) {
+    /// A step at x.
+    pub(super) fn note(&mut self, x: f64, quantum: f64) {
         if (x - self.anchor).abs() <= ABOUT * quantum {
             self.steps = self.steps.saturating_add(1);
-            self.early = if early { self.early.saturating_add(1) } else { 0 };
         } else {
             *self = Whereabouts { anchor: x, ..Whereabouts::NEW };
         }
-    }
-
-    pub(super) fn is_chased(self) -> bool {
-        self.early >= CHASE
     }
 
     /// Whether its group is to be tried at this step.
@@ -98,7 +89,10 @@ impl<const ORDER: usize> Qss<ORDER> {
         if !group.dies_out() {
             return None;
         }
-        let quanta = members_of(members, |m| self.own[m].quantum.at(self.record(m).x_at(t)));
+        let quanta = members_of(members, |m| {
+            let x = self.record(m).x_at(t);
+            self.own[m].quantum.next(x)
+        });
         let hops = self.ahead[i].whereabouts.steps >= HOPS;
         let (motion, delay) = group
             .rest::<ORDER>(&quanta)
@@ -115,22 +109,6 @@ impl<const ORDER: usize> Qss<ORDER> {
             }
         }
         Some(motion.map(|coefficients| coefficients[0]))
-    }
-
-    /// Stops a run in which a state and another one chase each other, and so that nothing else gets on.
-    #[cold]
-    pub(super) fn tell_chase(&mut self, e: &Equations, i: usize, t: f64) -> Result<(), Failed> {
-        let (members, count) = self.restless_about(e, i);
-        self.ahead[i].whereabouts.early = 0;
-        let early = |m: &usize| self.ahead[*m].whereabouts.early;
-        match members[1..count].iter().copied().max_by_key(early).filter(|m| early(m) >= CHASE / 2) {
-            Some(other) => Err(self.fail(Fault::Chase {
-                state: StateIndex::new(i),
-                other: StateIndex::new(other),
-                time: t,
-            })),
-            None => Ok(()),
-        }
     }
 
     /// The state and the restless ones that depend on it and on which it depends, the nearest ones if they are many.
@@ -173,10 +151,10 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// u of a group, order by order: what its rates are beside A·q.
     fn drift(&self, members: &[usize], pulls: &Matrix, t: f64) -> [Vector; 3] {
         let mut drift = [[0.0; MOST]; 3];
-        for k in 0..ORDER {
+        for (k, drift) in drift.iter_mut().enumerate().take(ORDER) {
             let rates = members_of(members, |m| (k + 1) as f64 * self.record(m).x_from(t)[k + 1]);
             let quantised = members_of(members, |m| self.record(m).q_from(t)[k]);
-            drift[k] = plus(&rates, -1.0, &times(pulls, &quantised));
+            *drift = plus(&rates, -1.0, &times(pulls, &quantised));
         }
         drift
     }
@@ -220,12 +198,10 @@ impl Group {
     /// A joint step of length h, at whose end x and q meet.
     fn step<const ORDER: usize>(&self, h: f64) -> Option<Motion> {
         let Group { count, pulls, x, drift: [u, u1, _] } = self;
-        let mut left = [[0.0; MOST]; MOST];
-        for (i, row) in left.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                let square: f64 = (0..*count).map(|k| pulls[i][k] * pulls[k][j]).sum();
-                let second = if ORDER > 1 { 0.5 * h * h * square } else { 0.0 };
-                *entry = if i == j { 1.0 } else { 0.0 } - h * pulls[i][j] + second;
+        let mut left = unit_plus(-h, pulls);
+        if ORDER > 1 {
+            for (row, square) in left.iter_mut().zip(&product(pulls, pulls)) {
+                *row = plus(row, 0.5 * h * h, square);
             }
         }
         if ORDER == 1 {
@@ -245,30 +221,17 @@ impl Group {
     /// Whether ẋ = A·x comes to rest: whether the powers of its Cayley transform (I − hA)⁻¹(I + hA) vanish.
     fn dies_out(&self) -> bool {
         let h = 1.0 / self.size();
-        let unit = |i, j| if i == j { 1.0 } else { 0.0 };
+        let (behind, ahead) = (unit_plus(-h, &self.pulls), unit_plus(h, &self.pulls));
+        // Transposed, which vanishes alike.
         let mut step: Matrix = [[0.0; MOST]; MOST];
-        for column in 0..self.count {
-            let mut behind: Matrix = [[0.0; MOST]; MOST];
-            let mut ahead: Vector = [0.0; MOST];
-            for i in 0..self.count {
-                ahead[i] = unit(i, column) + h * self.pulls[i][column];
-                for j in 0..self.count {
-                    behind[i][j] = unit(i, j) - h * self.pulls[i][j];
-                }
-            }
-            let Some(image) = solve(behind, ahead, self.count) else { return false };
-            for i in 0..self.count {
-                step[i][column] = image[i];
-            }
+        for (column, image) in step.iter_mut().enumerate().take(self.count) {
+            let Some(solution) = solve(behind, ahead.map(|row| row[column]), self.count) else {
+                return false;
+            };
+            *image = solution;
         }
         for _ in 0..DOUBLINGS {
-            let mut doubled: Matrix = [[0.0; MOST]; MOST];
-            for (i, row) in doubled.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    *entry = (0..self.count).map(|k| step[i][k] * step[k][j]).sum();
-                }
-            }
-            step = doubled;
+            step = product(&step, &step);
         }
         step.iter().flatten().all(|entry| entry.abs() < 0.5)
     }
@@ -279,7 +242,7 @@ impl Group {
     }
 }
 
-fn members_of(members: &[usize], value: impl Fn(usize) -> f64) -> Vector {
+fn members_of(members: &[usize], mut value: impl FnMut(usize) -> f64) -> Vector {
     let mut vector = [0.0; MOST];
     for (entry, &m) in vector.iter_mut().zip(members) {
         *entry = value(m);
@@ -297,6 +260,16 @@ fn times(a: &Matrix, x: &Vector) -> Vector {
     a.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum())
 }
 
+/// A·B.
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    a.map(|row| row.iter().zip(b).fold([0.0; MOST], |sum, (&entry, of)| plus(&sum, entry, of)))
+}
+
+/// I + s·A.
+fn unit_plus(s: f64, a: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| (if i == j { 1.0 } else { 0.0 }) + s * a[i][j]))
+}
+
 /// The solution of A·x = b for the leading `n` rows and columns, by elimination; `None` if A is singular.
 fn solve(mut a: Matrix, mut b: Vector, n: usize) -> Option<Vector> {
     for k in 0..n {
@@ -308,9 +281,7 @@ fn solve(mut a: Matrix, mut b: Vector, n: usize) -> Option<Vector> {
         b.swap(k, pivot);
         for i in (0..n).filter(|&i| i != k) {
             let factor = a[i][k] / a[k][k];
-            for j in k..n {
-                a[i][j] -= factor * a[k][j];
-            }
+            a[i] = plus(&a[i], -factor, &a[k]);
             b[i] -= factor * b[k];
         }
     }

@@ -161,15 +161,13 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// The next quantised trajectory of a state at its step.
     pub(super) fn quantise_ahead(&mut self, e: &Equations, i: usize, t: f64, quantum: f64) -> [f64; 3] {
         let linear = self.linear(e, i, t);
-        let (x, before) = (self.record(i).x_from(t), self.record(i).tq());
+        let x = self.record(i).x_from(t);
         let ahead = &mut self.ahead[i];
         let hardly_moved = t < ahead.settles && (x[0] - ahead.last).abs() < HARDLY * quantum;
         ahead.idle = if hardly_moved { ahead.idle + 1 } else { 0 };
-        let turned_back = ahead.idle >= MOST_IDLE;
+        let turned_back = linear.a < 0.0 && ahead.idle >= MOST_IDLE;
         ahead.arrive(x[0]);
-        let early = linear.a < 0.0 && -linear.a * (t - before) < 1.0;
-        ahead.whereabouts.note(x[0], quantum, early);
-        let turned_back = linear.a < 0.0 && turned_back;
+        ahead.whereabouts.note(x[0], quantum);
         if linear.a < 0.0
             && ahead.whereabouts.is_restless()
             && let Some(q) = self.rest_together(e, i, t)

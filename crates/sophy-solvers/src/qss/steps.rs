@@ -29,13 +29,10 @@ impl<const ORDER: usize> Qss<ORDER> {
         let (before, x) = (record.tq(), record.x_from(t));
         self.count_repeats(i, before, t)?;
         // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
-        let quantum = self.own[i].quantum.at(x[0]);
+        let quantum = self.own[i].quantum.next(x[0]);
         let mut q = [x[0], if ORDER > 1 { x[1] } else { 0.0 }, if ORDER > 2 { x[2] } else { 0.0 }];
         if self.settings.implicit {
             q = self.quantise_ahead(e, i, t, quantum);
-            if self.ahead[i].whereabouts.is_chased() {
-                self.tell_chase(e, i, t)?;
-            }
         }
         self.step_to(e, i, t, q, quantum, journal)?;
         // Its own rate, if it was among them, has scheduled it already.
@@ -58,7 +55,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         journal: &mut Journal,
     ) -> Result<(), Failed> {
         let x = self.record(i).x_at(t);
-        let quantum = self.own[i].quantum.at(x);
+        let quantum = self.own[i].quantum.next(x);
         let linear = self.linear(e, i, t);
         self.ahead[i].arrive(x);
         let q = self.go_to_rest(i, t, linear, quantum);
