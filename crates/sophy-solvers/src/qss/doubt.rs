@@ -29,8 +29,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             let linear = self.linear(e, i, t);
             let record = self.record(i);
             let (x, start, [now, mut slope, ..]) = (record.x(), record.tx(), record.x_from(t));
-            // It would have come to rest long ago.
-            if -linear.a * (t - record.tq()) > 1.0 {
+            if is_hidden(linear.a, t - record.tq()) {
                 slope = linear.a * now + linear.u[0];
                 stiff = true;
             }
@@ -53,13 +52,38 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         journal: &mut Journal,
     ) -> Result<(), Fault> {
+        self.step_sources_from_x(e, watch, t, journal)?;
+        let residue = self.difference(e, watch, t)?[0];
+        self.watches[watch.position()].bias += residue;
+        self.predict(e, watch, t)
+    }
+
+    /// Whether a watch on the surface cannot be decided by the rates there are, because they hide those at x.
+    pub(super) fn reads_hidden_rates(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> bool {
+        e.sources(&e.watches[watch.position()].formula.sources).iter().any(|source| {
+            let i = source.position();
+            i < self.ahead.len() && is_hidden(self.linear(e, i, t).a, t - self.record(i).tq())
+        })
+    }
+
+    /// The states a watch reads begin anew at x, with its rates.
+    pub(super) fn step_sources_from_x(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Fault> {
         for &source in e.sources(&e.watches[watch.position()].formula.sources) {
             if source.position() < self.ahead.len() {
                 self.step_from_x(e, source.position(), t, journal).map_err(|failed| self.why(failed))?;
             }
         }
-        let residue = self.difference(e, watch, t)?[0];
-        self.watches[watch.position()].bias += residue;
-        self.predict(e, watch, t)
+        Ok(())
     }
+}
+
+/// Whether a state would have come to rest long since its last step, so that its rate along q is not the one at x.
+fn is_hidden(a: f64, since: f64) -> bool {
+    -a * since > 1.0
 }
