@@ -8,12 +8,14 @@
 
 mod accuracy {
     pub(crate) mod cases;
+    pub(crate) mod ladder;
     pub(crate) mod measure;
     pub(crate) mod models;
     pub(crate) mod table;
 }
 
 use accuracy::cases::{Case, cases};
+use accuracy::ladder::{climb, ladders};
 use accuracy::measure::measure;
 use sophy::Method;
 
@@ -64,5 +66,32 @@ fn errors_of_the_other_engines_are_of_the_size_of_the_tolerance() {
 fn the_tables_of_the_book() {
     if let Ok(part) = std::env::var("SOPHY_ACCURACY") {
         eprintln!("{}", accuracy::table::tables(&part));
+    }
+}
+
+/// Ten times smaller quanta never cost more than twenty times the steps, and lose no transition: no states chase each
+/// other. Engines go on to 1e-9, or until they have taken enough steps for a test.
+#[test]
+fn no_quantum_makes_states_chase_each_other() {
+    const ENOUGH: u64 = 60_000;
+    let engines = [Method::Qss1, Method::Qss2, Method::Qss3, Method::Liqss1, Method::Liqss2, Method::Liqss3];
+    for ladder in ladders() {
+        let explicit = |method: &Method| method.name().starts_with("qss");
+        for method in engines.into_iter().filter(|method| !(ladder.stiff && explicit(method))) {
+            let mut line = format!("{} by {}:", ladder.name, method.name());
+            let mut before = u64::MAX / 20;
+            for place in 1..=9 {
+                let quantum = libm::pow(10.0, -f64::from(place));
+                let (steps, events) = climb(&ladder, method, quantum);
+                line += &format!(" {steps}");
+                assert!(steps <= 20 * before, "{line} at {quantum:e}");
+                assert!(events == ladder.events || place == 1, "{line}, {events} transitions at {quantum:e}");
+                if steps > ENOUGH {
+                    break;
+                }
+                before = steps;
+            }
+            eprintln!("{line}");
+        }
     }
 }

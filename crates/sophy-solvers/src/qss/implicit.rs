@@ -152,6 +152,11 @@ impl Ahead {
     }
 }
 
+/// q takes value and slope of x, eq. (3.7).
+pub(super) fn explicit<const ORDER: usize>([x, slope, bend, _]: [f64; 4]) -> [f64; 3] {
+    [x, if ORDER > 1 { slope } else { 0.0 }, if ORDER > 2 { bend } else { 0.0 }]
+}
+
 /// A state that has moved by less than this part of its quantum since its last step has hardly moved.
 const HARDLY: f64 = 0.001;
 /// So many steps in a row in which it has hardly moved are enough.
@@ -180,7 +185,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         } else if linear.a <= 0.0 && q.iter().all(|q| q.is_finite()) {
             q
         } else {
-            [x[0], if ORDER > 1 { x[1] } else { 0.0 }, if ORDER > 2 { x[2] } else { 0.0 }]
+            explicit::<ORDER>(x)
         }
     }
 

@@ -3,6 +3,7 @@
 
 use super::bend::STRAIGHT;
 use super::engine::{Failed, Qss};
+use super::implicit::explicit;
 use super::record::{leaves, leaves_from_middle};
 use sophy_field::{Block, Entry, Equations, Fault, Jet, Journal, NOW, RowResult, StateIndex};
 
@@ -28,16 +29,13 @@ impl<const ORDER: usize> Qss<ORDER> {
         let record = self.record(i);
         let (before, x) = (record.tq(), record.x_from(t));
         self.count_repeats(i, before, t)?;
-        // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
         let quantum = self.own[i].quantum.next(x[0]);
-        let mut q = [x[0], if ORDER > 1 { x[1] } else { 0.0 }, if ORDER > 2 { x[2] } else { 0.0 }];
-        if self.settings.implicit {
-            q = self.quantise_ahead(e, i, t, quantum);
-        }
+        let implicit = self.settings.implicit;
+        let q = if implicit { self.quantise_ahead(e, i, t, quantum) } else { explicit::<ORDER>(x) };
         self.step_to(e, i, t, q, quantum, journal)?;
         // Its own rate, if it was among them, has scheduled it already.
         let evaluated = self.record(i).tx();
-        if evaluated < t && !self.settings.implicit {
+        if evaluated < t && !implicit {
             // q is x now, up to the highest coefficient.
             self.due_in(i, t, evaluated, leaves_from_middle::<ORDER>(x, quantum));
         } else if self.agenda.time(i as u32) <= t {

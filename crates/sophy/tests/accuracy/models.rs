@@ -47,3 +47,38 @@ body
 end body;
 end Nanoampere;
 ";
+
+/// Either half comes to rest alone; each moves the place where the other would.
+pub(crate) const PAIR: &str = "CTC Pair is
+body
+  declarations
+    state x1 := 0;
+    state x2 := 0;
+  end declarations;
+  dynamics
+    der(x1) = k*(0.2 - x1 - c*x2);
+    der(x2) = k*(1.2 + c*x1 - x2);
+  end dynamics;
+  assignments
+    k : 1e4;
+    c : 2;
+  end assignments;
+end body;
+end Pair;
+";
+
+pub(crate) const ROBERTSON: &str = "CTC Robertson is
+body
+  declarations
+    state y1 := 1;
+    state y2 := 0;
+    state y3 := 0;
+  end declarations;
+  dynamics
+    der(y1) = -0.04*y1 + 1e4*y2*y3;
+    der(y2) = 0.04*y1 - 1e4*y2*y3 - 3e7*y2^2;
+    der(y3) = 3e7*y2^2;
+  end dynamics;
+end body;
+end Robertson;
+";
