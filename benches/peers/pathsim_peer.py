@@ -11,7 +11,7 @@ from problems import HOPPER, LEAVES, RATES, START, reset
 from serve import serve
 
 SOLVERS = {"RKDP54": RKDP54, "ESDIRK43": ESDIRK43}
-METHODS = {"RKDP54": ["oscillator", "stiff pair", "hopper", "front"], "ESDIRK43": ["stiff pair"]}
+METHODS = {"RKDP54": ["oscillator", "hopper", "front"], "ESDIRK43": ["stiff pair"]}
 
 
 def prepare(request):

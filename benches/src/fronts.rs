@@ -35,6 +35,6 @@ impl Fronts {
     /// The first front stands behind three tenths of its share of the cells.
     fn start(self, cell: usize) -> f64 {
         let passed = (10 * cell * self.fronts + 7 * self.cells) / (10 * self.cells);
-        if passed % 2 == 0 { 1.0 } else { 0.0 }
+        if passed.is_multiple_of(2) { 1.0 } else { 0.0 }
     }
 }

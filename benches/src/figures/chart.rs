@@ -1,7 +1,6 @@
 //! Panels beside one another with one legend, as SVG. Faces, ink and colours are those of `sophy-files`.
 
-use plotters::coord::types::RangedCoordf64;
-use plotters::coord::{Shift, ranged1d::Ranged};
+use plotters::coord::Shift;
 use plotters::element::{Circle, PathElement, Text};
 use plotters::prelude::*;
 use std::io;
@@ -47,7 +46,6 @@ pub struct Line {
 
 const PANEL: (u32, u32) = (340, 320);
 const LEGEND: u32 = 26;
-const TITLE: u32 = 24;
 const FAMILY: &str = "Roboto, Helvetica, Arial, sans-serif";
 const TEXT: f64 = 11.0;
 const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);

@@ -4,8 +4,8 @@ use super::{Outcome, Solver, clocked};
 use crate::problem::Problem;
 use ::diffsol::error::DiffsolError;
 use ::diffsol::{
-    FaerSparseLU, FaerSparseMat, NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod,
-    OdeSolverStopReason, Vector,
+    NalgebraContext, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeEquationsImplicit,
+    OdeSolverMethod, OdeSolverProblem, OdeSolverStopReason, Vector,
 };
 use std::cell::Cell;
 
@@ -27,8 +27,9 @@ impl Solver for Peer {
         self.method
     }
 
-    fn can(&self, _: Problem) -> bool {
-        true
+    fn can(&self, problem: Problem) -> bool {
+        // Dense matrices of a thousand rows would be no fair use of the implicit methods.
+        problem != Problem::Front || self.method == "tsit45"
     }
 
     fn solve(&mut self, problem: Problem, stop: f64, setting: f64) -> Result<Outcome, String> {
@@ -40,44 +41,19 @@ impl Solver for Peer {
     }
 }
 
-/// Makes the solver of a method and drives it.
-macro_rules! driven {
-    ($problem:expr, $solve:ty, $method:expr, $instants:expr, $stop:expr) => {
-        match $method {
-            "tsit45" => drive($problem.tsit45()?, $instants, $stop),
-            "esdirk34" => drive($problem.esdirk34::<$solve>()?, $instants, $stop),
-            _ => drive($problem.bdf::<$solve>()?, $instants, $stop),
-        }
-    };
-}
-
 fn smooth(problem: Problem, method: &str, stop: f64, tolerance: f64) -> Result<Outcome, DiffsolError> {
     let start = problem.start();
     let states = start.len();
-    macro_rules! built {
-        ($matrix:ty) => {
-            OdeBuilder::<$matrix>::new()
-                .rtol(tolerance)
-                .atol([tolerance])
-                .rhs_implicit(
-                    |x: &[f64], _: &[f64], _: f64, rates: &mut [f64]| problem.rates(x, rates),
-                    |x: &[f64], _: &[f64], _: f64, v: &[f64], along: &mut [f64]| {
-                        problem.rates_along(x, v, along)
-                    },
-                )
-                .init(|_: &[f64], _: f64, x: &mut [f64]| x.copy_from_slice(&start), states)
-                .build()?
-        };
-    }
-    let instants = problem.instants();
-    if problem == Problem::Front && method != "tsit45" {
-        // Two diagonals: a sparse matrix.
-        let built = built!(FaerSparseMat<f64>);
-        driven!(built, FaerSparseLU<f64>, method, &instants, stop)
-    } else {
-        let built = built!(NalgebraMat<f64>);
-        driven!(built, NalgebraLU<f64>, method, &instants, stop)
-    }
+    let built = OdeBuilder::<NalgebraMat<f64>>::new()
+        .rtol(tolerance)
+        .atol([tolerance])
+        .rhs_implicit(
+            |x: &[f64], _: &[f64], _: f64, rates: &mut [f64]| problem.rates(x, rates),
+            |x: &[f64], _: &[f64], _: f64, v: &[f64], along: &mut [f64]| problem.rates_along(x, v, along),
+        )
+        .init(|_: &[f64], _: f64, x: &mut [f64]| x.copy_from_slice(&start), states)
+        .build()?;
+    driven(&built, method, &problem.instants(), stop)
 }
 
 /// The hopper by one root that depends on the location.
@@ -105,7 +81,7 @@ fn hopper(method: &str, stop: f64, tolerance: f64) -> Result<Outcome, DiffsolErr
             location.set((location.get() + 1) % 4);
         })
         .build()?;
-    driven!(built, NalgebraLU<f64>, method, &[], stop)
+    driven(&built, method, &[], stop)
 }
 
 fn hopper_rates(location: usize, x: &[f64], rates: &mut [f64]) {
@@ -143,6 +119,23 @@ fn hopper_root(location: usize, x: &[f64]) -> f64 {
         1 => x[1],
         2 => f64::max(x[2] - 0.1, x[0] - 0.5),
         _ => x[0] - 0.5,
+    }
+}
+
+/// Makes the solver of a method and drives it.
+fn driven<E>(
+    built: &OdeSolverProblem<E>,
+    method: &str,
+    instants: &[f64],
+    stop: f64,
+) -> Result<Outcome, DiffsolError>
+where
+    E: OdeEquationsImplicit<T = f64, M = NalgebraMat<f64>, V = NalgebraVec<f64>, C = NalgebraContext>,
+{
+    match method {
+        "tsit45" => drive(built.tsit45()?, instants, stop),
+        "esdirk34" => drive(built.esdirk34::<NalgebraLU<f64>>()?, instants, stop),
+        _ => drive(built.bdf::<NalgebraLU<f64>>()?, instants, stop),
     }
 }
 

@@ -1,12 +1,13 @@
 //! Those who solve the same problems, Sophy among them.
 //!
 //! Each does what its own documents advise; whoever has no location of events leaves the hopper to the others. What is
-//! measured is the run alone: native code, factories of matrices and imports come before it.
+//! measured is the run alone: native code and imports come before it.
 
 mod diffsol;
 mod ode_solvers;
 mod ours;
 mod python;
+mod wheels;
 
 use crate::measure::Time;
 use crate::problem::Problem;
@@ -41,7 +42,7 @@ pub struct Outcome {
 }
 
 /// No solve may take longer, s.
-pub const PATIENCE: f64 = 20.0;
+pub const PATIENCE: f64 = 60.0;
 
 /// Everybody that can be had here.
 pub fn everybody() -> Vec<Box<dyn Solver>> {

@@ -1,12 +1,13 @@
 //! Peers that are wheels of Python, each a script in `benches/peers` that answers one line of JSON with another.
 
+use super::wheels::{WHEELS, python};
 use super::{Outcome, PATIENCE, Solver};
 use crate::measure::Time;
 use crate::problem::Problem;
 use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::rc::Rc;
 
@@ -29,22 +30,13 @@ struct Script {
 pub fn all() -> Vec<Box<dyn Solver>> {
     let python = python();
     let mut all = Vec::new();
-    for wheel in ["scipy", "pathsim", "heyoka"] {
+    for wheel in WHEELS {
         match start(&python, wheel) {
             Ok(peers) => all.extend(peers.into_iter().map(|peer| Box::new(peer) as Box<dyn Solver>)),
             Err(why) => eprintln!("left out: {wheel} ({why})"),
         }
     }
     all
-}
-
-/// That of the virtual environment beside the benches' build, if it was made, else the system's.
-fn python() -> PathBuf {
-    let own = std::env::current_exe().ok().and_then(|program| {
-        let python = program.parent()?.parent()?.join("peers/bin/python");
-        python.exists().then_some(python)
-    });
-    own.unwrap_or_else(|| PathBuf::from("python3"))
 }
 
 fn start(python: &Path, wheel: &str) -> Result<Vec<Peer>, String> {
