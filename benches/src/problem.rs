@@ -164,3 +164,38 @@ impl Truth {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_missing_or_no_number_is_no_small_error() {
+        let truth = Truth { states: vec![vec![1.0, 2.0]], transitions: vec![0.5] };
+        assert_eq!(truth.error(&[vec![1.0, 2.25]], &[0.5, 0.75]), 0.25);
+        for (states, transitions) in
+            [(vec![], vec![0.5]), (vec![vec![1.0, 2.0]], vec![]), (vec![vec![f64::NAN, 2.0]], vec![0.5])]
+        {
+            assert_eq!(truth.error(&states, &transitions), f64::INFINITY);
+        }
+    }
+
+    #[test]
+    fn rates_along_a_direction_are_their_derivative() {
+        for problem in [Problem::Oscillator, Problem::StiffPair, Problem::Front] {
+            let x: Vec<f64> = problem.start().iter().map(|x| x + 0.25).collect();
+            let v: Vec<f64> = (0..x.len()).map(|i| 0.5 - (i % 3) as f64).collect();
+            let rates_at = |h: f64| {
+                let at: Vec<f64> = x.iter().zip(&v).map(|(x, v)| x + h * v).collect();
+                let mut rates = vec![0.0; x.len()];
+                problem.rates(&at, &mut rates);
+                rates
+            };
+            let mut along = vec![0.0; x.len()];
+            problem.rates_along(&x, &v, &mut along);
+            for ((after, before), along) in rates_at(1e-5).iter().zip(rates_at(-1e-5)).zip(along) {
+                assert!(((after - before) / 2e-5 - along).abs() < 1e-4, "{}", problem.name());
+            }
+        }
+    }
+}

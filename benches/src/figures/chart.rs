@@ -181,11 +181,10 @@ impl Span {
         match scale {
             Scale::FromZero => span.high = 1.1 * high,
             Scale::Powers(_) => {
-                // Some room for points at the border; ticks only at whole powers, every second one if there are many.
-                (span.low, span.high) = (low - 0.02 * (high - low), high + 0.02 * (high - low));
-                let (first, last) = (libm::floor(span.low), libm::ceil(span.high));
-                (span.low, span.high) = (first, last);
-                let powers = (last - first) as usize;
+                // Some room for points at the border; ticks at whole powers only, at every second one if there are many.
+                let room = 0.3_f64.max(0.05 * (high - low));
+                (span.low, span.high) = (low - room, high + room);
+                let powers = (libm::floor(span.high) - libm::ceil(span.low)) as usize;
                 span.ticks = if powers > 8 { powers / 2 + 1 } else { powers + 1 };
             }
         }
@@ -203,7 +202,7 @@ impl Span {
         match self.scale {
             Scale::FromZero => format!("{at:.0}"),
             Scale::Powers(10) => format!("10{}", superscript(at)),
-            Scale::Powers(base) => format!("{:.0}", libm::pow(f64::from(base), at)),
+            Scale::Powers(base) => libm::pow(f64::from(base), at).to_string(),
         }
     }
 }
@@ -215,4 +214,17 @@ fn superscript(power: f64) -> String {
         other => other,
     };
     format!("{power:.0}").chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_of_powers_have_whole_powers_for_ticks() {
+        let span = Span::new(Scale::Powers(10), [0.01, 300.0].into_iter());
+        assert_eq!(span.ticks, 5, "10⁻² … 10²");
+        assert_eq!(span.label(-2.0), "10⁻²");
+        assert_eq!(Span::new(Scale::Powers(2), [1.0, 16.0].into_iter()).label(3.0), "8");
+    }
 }

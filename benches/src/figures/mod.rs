@@ -89,7 +89,7 @@ fn cost_and_activity(activity: &[Scaled]) -> Vec<Panel> {
     vec![Panel {
         title: format!("{CELLS} cells, {method}, 0.5 s"),
         x: Axis { label: "fronts that travel".to_owned(), scale: Scale::Powers(2) },
-        y: Axis { label: "CPU time (ms)".to_owned(), scale: Scale::Powers(10) },
+        y: Axis { label: "CPU time (ms)".to_owned(), scale: Scale::Powers(2) },
         curves: vec![
             Curve {
                 name: "proportional".to_owned(),
