@@ -25,11 +25,11 @@ struct Entrant<'a> {
     last: Option<Outcome>,
 }
 
-/// All problems; the quickest first.
-pub fn bench() -> Vec<Measured> {
+/// All problems, or one; the quickest first.
+pub fn bench(only: Option<&str>) -> Vec<Measured> {
     let mut everybody = everybody();
     let mut rows = Vec::new();
-    for problem in Problem::ALL {
+    for problem in Problem::ALL.into_iter().filter(|problem| only.is_none_or(|only| problem.name() == only)) {
         let truth = problem.truth();
         let ladders: Vec<_> =
             everybody.iter_mut().map(|solver| ladder(solver.as_mut(), problem, &truth)).collect();

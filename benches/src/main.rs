@@ -1,9 +1,9 @@
 //! Sophy beside hand-written loops of the same algorithm and beside other software, in one process, alternating.
 //!
 //! `cargo xtask bench` builds and runs this, and the tables go to the terminal and to `results/latest.{md,json}`. Words
-//! choose what is measured: `engine` the engines beside the floors, `peers` beside other software, `language` from text to
-//! a run that is ready (`language copies`: one kind of text), `build` the part of it after the model, `figures` the
-//! pictures of the book, which are drawn anew. `--name NAME` names the files of results.
+//! choose what is measured: `engine` the engines beside the floors, `peers` beside other software (`peers hopper`: one
+//! problem), `language` from text to a run that is ready (`language copies`: one kind of text), `build` the part of it
+//! after the model, `figures` the pictures of the book, which are drawn anew. `--name NAME` names the files of results.
 //! Machines are noisy: read the ratios, which compare neighbours in time, and never a speed without the error
 //! that stands beside it.
 
@@ -42,7 +42,7 @@ fn main() -> std::io::Result<()> {
         results.runs.extend([hopper::bench(), oscillator::bench(), systems::bench()].concat());
     }
     if wants("peers") {
-        results.runs.extend(contest::bench());
+        results.runs.extend(contest::bench(words.get(1).map(String::as_str)));
     }
     if wants("figures") {
         let (points, sizes, activity) = figures::measure();

@@ -23,7 +23,7 @@ pub const METHODS: [Method; 6] =
     [Method::Qss1, Method::Qss2, Method::Qss3, Method::Liqss1, Method::Liqss2, Method::Liqss3];
 
 /// First-order engines need ten times the steps for a tenth of the error; who needs more than so many is told to stop.
-const MOST: Work = Work { steps: 20_000_000 };
+const MOST: Work = Work { steps: 3_000_000 };
 
 /// Quanta from 1e-1 to 1e-7, until one takes too long.
 pub fn bench() -> Vec<Point> {

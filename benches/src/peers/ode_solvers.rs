@@ -39,13 +39,16 @@ impl Solver for Peer {
     fn solve(&mut self, problem: Problem, stop: f64, setting: f64) -> Result<Outcome, String> {
         let start = DVector::from_vec(problem.start());
         let every = problem.instants()[0];
+        // Where rows are farther apart than steps, a row at the very end is extrapolated from the step before the last (0.6.2):
+        // so the end lies a little beyond it.
+        let end = stop * (1.0 + 1e-7);
         // What its `new` chooses, but for the number of steps: the largest step is the whole time, the first its own choice.
         macro_rules! integrate {
             ($solver:ident, $beta:expr, $largest:expr, $smallest:expr) => {{
                 let mut solver = $solver::from_param(
                     Rates(problem),
                     0.0,
-                    stop,
+                    end,
                     every,
                     start,
                     setting,
