@@ -100,7 +100,7 @@ impl Problem {
                 let transitions = Reference::read("hopper/tau40_events.csv").numbers("t");
                 Truth { states: Vec::new(), transitions }
             }
-            // Halving the step changes nothing above 1e-9.
+            // Halving the step changes nothing above 1e-8.
             Problem::Front => states(&|t| FRONT.runge_kutta(t, 2e-5)),
         }
     }
