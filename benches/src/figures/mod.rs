@@ -83,11 +83,13 @@ fn cost_and_size(sizes: &[Scaled]) -> Vec<Panel> {
 /// Run time against the number of fronts, beside the line of proportion.
 fn cost_and_activity(activity: &[Scaled]) -> Vec<Panel> {
     let measured: Vec<_> = activity.iter().map(|row| (row.fronts.unwrap_or(1) as f64, row.cpu_ms)).collect();
-    let each = measured.last().map_or(0.0, |(fronts, ms)| ms / fronts);
+    let mut shares: Vec<f64> = measured.iter().map(|(fronts, ms)| ms / fronts).collect();
+    shares.sort_unstable_by(f64::total_cmp);
+    let each = shares.get(shares.len() / 2).copied().unwrap_or(0.0);
     let proportional = measured.iter().map(|(fronts, _)| (*fronts, each * fronts)).collect();
     let method = activity.first().map_or("", |row| row.method.name());
     vec![Panel {
-        title: format!("{CELLS} cells, {method}, 0.5 s"),
+        title: format!("{} 000 cells, {method}, 0.5 s", CELLS / 1000),
         x: Axis { label: "fronts that travel".to_owned(), scale: Scale::Powers(2) },
         y: Axis { label: "CPU time (ms)".to_owned(), scale: Scale::Powers(2) },
         curves: vec![
