@@ -26,7 +26,13 @@ impl Case {
         Case { system: Arc::clone(&self.system), method, ..*self }
     }
 
-    fn begin(&self, backend: Backend) -> Run {
+    /// The same with another quantum, to another time.
+    pub fn with(&self, quantum: f64, stop: f64) -> Self {
+        Case { system: Arc::clone(&self.system), quantum, stop, ..*self }
+    }
+
+    /// A run that is started.
+    pub fn begin(&self, backend: Backend) -> Run {
         let quantum = Quantum::absolute(self.quantum);
         let experiment = Experiment {
             stop: self.stop,
@@ -83,15 +89,18 @@ impl Case {
     ) -> Measured {
         Measured {
             bench: self.bench,
-            method: self.method.name(),
-            by,
+            method: self.method.name().to_owned(),
+            by: by.to_owned(),
+            setting: self.quantum,
             time,
             simulated: self.stop,
             steps: run.statistics().engine.steps,
             transitions: (!run.taken.is_empty()).then_some(run.taken.len()),
             error_of,
             error,
-            ratio,
+            wanted: None,
+            to_floor: ratio,
+            to_ours: None,
         }
     }
 }
