@@ -19,7 +19,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             return Ok(false);
         }
         let sources = e.sources(&e.watches[watch.position()].formula.sources);
-        let mut kept = Vec::with_capacity(sources.len());
+        let mut kept = std::mem::take(&mut self.doubting);
         let mut stiff = false;
         for &source in sources {
             let i = source.position();
@@ -37,9 +37,10 @@ impl<const ORDER: usize> Qss<ORDER> {
             self.record_mut(i).set_x([now, slope, 0.0, 0.0], t);
         }
         let difference = self.raw_difference(e, watch, t);
-        for (i, x, start) in kept {
+        for (i, x, start) in kept.drain(..) {
             self.record_mut(i).set_x(x, start);
         }
+        self.doubting = kept;
         let slope = difference?[1];
         Ok(stiff && if sign == Sign::Positive { slope > 0.0 } else { slope < 0.0 })
     }

@@ -1,4 +1,5 @@
 use super::bend::{Bend, STRAIGHT};
+use super::group::MOST;
 use super::implicit::Ahead;
 use super::record::{Place, Record, RecordMut};
 use super::settings::{Quantum, Settings};
@@ -44,6 +45,8 @@ pub struct Qss<const ORDER: usize> {
     pub(super) enclosed: Vec<Interval>,
     /// What a record held of q; empty in between.
     pub(super) kept: Vec<([f64; 3], f64)>,
+    /// What records held of x while a crossing is doubted, and since when; empty in between.
+    pub(super) doubting: Vec<(usize, [f64; 4], f64)>,
     /// States put at rest with the one that steps; empty in between.
     pub(super) joined: Vec<StateIndex>,
     /// Watches to look at again before time goes on; while they are settled, the next of them in order.
@@ -99,7 +102,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             memory: Memory::from(equations.image.as_slice()),
             enclosed: rest.iter().map(|&value| Interval::point(value)).collect(),
             kept: Vec::new(),
-            joined: Vec::new(),
+            doubting: Vec::new(),
+            joined: Vec::with_capacity(MOST),
             dirty: Vec::new(),
             settling: BinaryHeap::new(),
             changed: Vec::new(),

@@ -15,7 +15,7 @@ use super::engine::Qss;
 use sophy_field::{Equations, StateIndex};
 
 /// The most states of a group.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 /// A state is restless when it has taken so many steps...
 const RESTLESS: u32 = 4;
 /// ... within so many quanta. Every so many steps its group is tried.
