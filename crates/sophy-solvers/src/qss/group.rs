@@ -55,7 +55,8 @@ impl Whereabouts {
 
     /// Whether its group is to be tried at this step.
     pub(super) fn is_restless(self) -> bool {
-        self.joint || self.steps >= RESTLESS && self.steps.is_multiple_of(RESTLESS)
+        let often = self.steps > HOPS && self.steps.is_multiple_of(RESTLESS);
+        self.joint || self.steps >= RESTLESS && (self.steps.is_power_of_two() || often)
     }
 
     /// Whether it is on its way to be that: states that hop together do not count alike.
