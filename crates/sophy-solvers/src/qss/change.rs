@@ -114,6 +114,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &watch in &code.armed[from] {
             self.disarm(e, watch);
         }
+        self.switchings += 1;
         self.locations[automaton] = location;
         self.note_entered(AutomatonIndex::new(automaton));
         self.decide_again(&code.readers);

@@ -47,6 +47,8 @@ pub struct Qss<const ORDER: usize> {
     pub(super) kept: Vec<([f64; 3], f64)>,
     /// What records held of x while a crossing is doubted, and since when; empty in between.
     pub(super) doubting: Vec<(usize, [f64; 4], f64)>,
+    /// How often a location, a truth or a stair has changed: what is affine in its sources has kept its slopes since.
+    pub(super) switchings: u64,
     /// States put at rest with the one that steps; empty in between.
     pub(super) joined: Vec<StateIndex>,
     /// Watches to look at again before time goes on; while they are settled, the next of them in order.
@@ -103,6 +105,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             enclosed: rest.iter().map(|&value| Interval::point(value)).collect(),
             kept: Vec::new(),
             doubting: Vec::new(),
+            switchings: 0,
             joined: Vec::with_capacity(MOST),
             dirty: Vec::new(),
             settling: BinaryHeap::new(),

@@ -138,12 +138,19 @@ pub(super) struct Ahead {
     idle: u32,
     /// When x comes to rest on the way it is, s; infinite if it is on another way.
     pub(super) settles: f64,
+    /// ∂f/∂q of the state itself where that is a constant, and the count of switchings for which it is one.
+    slope: (f64, u64),
     pub(super) whereabouts: Whereabouts,
 }
 
 impl Ahead {
-    pub(super) const NEW: Ahead =
-        Ahead { last: f64::NAN, idle: 0, settles: f64::INFINITY, whereabouts: Whereabouts::NEW };
+    pub(super) const NEW: Ahead = Ahead {
+        last: f64::NAN,
+        idle: 0,
+        settles: f64::INFINITY,
+        slope: (f64::NAN, u64::MAX),
+        whereabouts: Whereabouts::NEW,
+    };
 
     /// A step at x.
     pub(super) fn arrive(&mut self, x: f64) {
@@ -198,7 +205,16 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// The rate of a state as a function of its own quantised trajectory.
     pub(super) fn linear(&mut self, e: &Equations, i: usize, t: f64) -> Linear {
-        let a = self.slope(e, i, i, t);
+        let (known, switchings) = self.ahead[i].slope;
+        let a = if switchings == self.switchings {
+            known
+        } else {
+            let a = self.slope(e, i, i, t);
+            if ORDER > 1 && e.entries(&e.own[i]).iter().all(|&own| !e.block(own, &self.locations).bends) {
+                self.ahead[i].slope = (a, self.switchings);
+            }
+            a
+        };
         let record = self.record(i);
         let (x, q) = (record.x_from(t), record.q_from(t));
         let mut u = [0.0; 3];

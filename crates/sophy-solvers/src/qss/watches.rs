@@ -380,6 +380,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         if self.memory[at as usize] == value {
             return false;
         }
+        self.switchings += 1;
         self.memory[at as usize] = value;
         self.enclosed[(at - e.layout.rest) as usize] = Interval::point(value);
         true
