@@ -66,7 +66,8 @@ fn tell(name: &'static str, text: &str, ready: bool) -> Told {
     Told { text: name, lines: text.lines().count(), states, stages, held, peak: 0 }
 }
 
-fn model(text: &str, stages: &mut Vec<(&'static str, f64)>) -> Model {
+/// The model of a text; what it takes is noted.
+pub fn model(text: &str, stages: &mut Vec<(&'static str, f64)>) -> Model {
     let mut sources = Sources::default();
     let reading = timed("read", stages, || read_hsml(&mut sources, "bench.hsml", text.as_bytes()));
     assert!(!reading.diagnostics.has_errors(), "{:?}", reading.diagnostics.iter().next());

@@ -1,12 +1,13 @@
-//! `scale`: what a step costs in large systems, and what a large system costs that is mostly at rest.
+//! `scale`: what a step costs in large systems, and what a large system costs that is mostly at rest. The systems of
+//! several sizes are arrays of components (`models`).
 
 use crate::fronts::Fronts;
+use crate::language;
 use crate::measure::{medians, timed};
 use crate::memory;
 use sophy_ir::Model;
 use sophy_passes::lower;
 use sophy_run::{Backend, Experiment, Method, Pause, Quantum, QuantumRule, Run};
-use sophy_testkit::stiff::{LcLine, Smooth};
 use std::sync::Arc;
 
 /// One system.
@@ -31,6 +32,7 @@ pub struct Scaled {
 pub const LINE: &str = "LC line, a wave at its beginning";
 pub const BUSY_LINE: &str = "LC line, every state moves";
 pub const FRONT: &str = "front";
+pub const NEURONS: &str = "spiking neurons, spikes at their beginning";
 /// Cells of the systems with several fronts.
 pub const CELLS: usize = 100_000;
 
@@ -51,16 +53,25 @@ impl Scaled {
 pub fn sizes() -> Vec<Scaled> {
     let mut rows = Vec::new();
     for states in SIZES {
-        let line = LcLine(states / 2).model();
+        let line = cells(include_str!("../models/line.hsml"), states / 2);
         let quiet = Experiment { stop: 100.0, ..experiment(Method::Qss2, 1e-4) };
         rows.push(measure(LINE, &line, &quiet, u64::MAX));
-        let busy = Experiment { initial: scattered(states), ..quiet };
+        let busy = Experiment { initial: scattered(states / 2), ..quiet };
         // As many steps for each state, and enough of them to be measured.
         rows.push(measure(BUSY_LINE, &line, &busy, 1_000_000.max(4 * states as u64)));
-        let front = Fronts { cells: states, fronts: 1 }.model();
+        let front = cells(include_str!("../models/reaction.hsml"), states);
         rows.push(measure(FRONT, &front, &travelling(), u64::MAX));
+        let neurons = cells(include_str!("../models/neurons.hsml"), states / 2);
+        let spiking = Experiment { stop: 0.2, ..experiment(Method::Liqss2, 1e-3) };
+        rows.push(measure(NEURONS, &neurons, &spiking, u64::MAX));
     }
     rows
+}
+
+/// A model of 500 cells with another number of them.
+fn cells(text: &str, count: usize) -> Model {
+    let text = text.replace("500", &count.to_string()).replace("1..499", &format!("1..{}", count - 1));
+    language::model(&text, &mut Vec::new())
 }
 
 /// The same number of states, more and more of them active.
@@ -84,14 +95,17 @@ fn experiment(method: Method, quantum: f64) -> Experiment {
     }
 }
 
-/// In half a second a front travels through 500 cells: from 300 to 800 in the smallest system.
+/// In half a second a front travels through 500 cells.
 fn travelling() -> Experiment {
     Experiment { stop: 0.5, ..experiment(Method::Liqss2, 1e-3) }
 }
 
 /// Initial values that differ from state to state.
-fn scattered(states: usize) -> Vec<(String, f64)> {
-    (0..states).map(|i| (format!("x{}", i + 1), libm::sin(i as f64))).collect()
+fn scattered(sections: usize) -> Vec<(String, f64)> {
+    let of = |k: usize, state: &str, phase: f64| {
+        (format!("section[{}].{state}", k + 1), libm::sin(2.0 * k as f64 + phase))
+    };
+    (0..sections).flat_map(|k| [of(k, "i", 0.0), of(k, "u", 1.0)]).collect()
 }
 
 fn measure(system: &'static str, model: &Model, experiment: &Experiment, budget: u64) -> Scaled {

@@ -60,7 +60,7 @@ fn error_label(problem: Problem) -> String {
 /// Time and memory against the number of states.
 fn cost_and_size(sizes: &[Scaled]) -> Vec<Panel> {
     let panel = |title: &str, label: &str, value: fn(&Scaled) -> f64| {
-        let systems = [scale::LINE, scale::BUSY_LINE, scale::FRONT];
+        let systems = [scale::LINE, scale::BUSY_LINE, scale::FRONT, scale::NEURONS];
         let curve = |(colour, system): (usize, &str)| {
             let of = |row: &&Scaled| row.system == system;
             let method = sizes.iter().find(of).map_or("", |row| row.method.name());
