@@ -292,3 +292,80 @@ fn solve(mut a: Matrix, mut b: Vector, n: usize) -> Option<Vector> {
     }
     Some(solution)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const COUNT: usize = 4;
+
+    /// A group of four about some rest; every row of A leaves `margin` of its diagonal, s⁻¹.
+    fn group(margin: f64) -> impl Strategy<Value = Group> {
+        let entries = prop::array::uniform4(prop::array::uniform4(-1e3..1e3_f64));
+        let vectors = prop::array::uniform4(prop::array::uniform4(-1.0..1.0_f64));
+        (entries, vectors).prop_map(move |(entries, [x, u, u1, u2])| {
+            let mut pulls: Matrix = [[0.0; MOST]; MOST];
+            for i in 0..COUNT {
+                pulls[i][..COUNT].copy_from_slice(&entries[i]);
+                let others: f64 = (0..COUNT).filter(|&j| j != i).map(|j| entries[i][j].abs()).sum();
+                pulls[i][i] = -others - margin;
+            }
+            Group { count: COUNT, pulls, x: long(x), drift: [u, u1, u2].map(long) }
+        })
+    }
+
+    fn long(short: [f64; COUNT]) -> Vector {
+        std::array::from_fn(|i| short.get(i).copied().unwrap_or(0.0))
+    }
+
+    fn largest(v: &Vector) -> f64 {
+        v.iter().fold(0.0, |largest, x| largest.max(x.abs()))
+    }
+
+    proptest! {
+        /// Gershgorin's circles are left of zero.
+        #[test]
+        fn what_is_dominated_by_its_diagonal_dies_out(group in group(1.0)) {
+            prop_assert!(group.dies_out());
+        }
+
+        /// The sum of the eigenvalues is positive.
+        #[test]
+        fn what_grows_does_not(mut group in group(1.0)) {
+            for i in 0..COUNT {
+                group.pulls[i][i] = -group.pulls[i][i];
+            }
+            prop_assert!(!group.dies_out());
+        }
+
+        /// ṙ = A·r + u, coefficient by coefficient.
+        #[test]
+        fn at_rest_the_motion_moves_as_it_is_pulled(group in group(1.0)) {
+            let rest = group.rest::<3>(&[f64::INFINITY; MOST]).expect("a rest");
+            for k in 0..3 {
+                let pulled = plus(&times(&group.pulls, &rest[k]), 1.0, &group.drift[k]);
+                let moves = if k < 2 { rest[k + 1].map(|r| (k + 1) as f64 * r) } else { [0.0; MOST] };
+                let scale = 1.0 + largest(&moves) + group.size() * largest(&rest[k]);
+                prop_assert!(largest(&plus(&pulled, -1.0, &moves)) < 1e-9 * scale);
+            }
+        }
+
+        /// After h, x and q meet, of the second order with their slopes.
+        #[test]
+        fn a_joint_step_ends_where_it_leads(group in group(1.0), scale in -6..=6_i32) {
+            let h = libm::ldexp(1.0, scale) / group.size();
+            let Group { pulls, x, drift: [u, u1, _], .. } = &group;
+
+            let [q, ..] = group.step::<1>(h).expect("a step");
+            let end = plus(x, h, &plus(&times(pulls, &q), 1.0, u));
+            prop_assert!(largest(&plus(&end, -1.0, &q)) < 1e-9 * (1.0 + largest(&q)));
+
+            let [q, slope, _] = group.step::<2>(h).expect("a step");
+            let (rate, bend) = (plus(&times(pulls, &q), 1.0, u), plus(&times(pulls, &slope), 1.0, u1));
+            let end = plus(&plus(x, h, &rate), 0.5 * h * h, &bend);
+            prop_assert!(largest(&plus(&end, -1.0, &plus(&q, h, &slope))) < 1e-9 * (1.0 + largest(&q)));
+            prop_assert!(largest(&plus(&plus(&rate, h, &bend), -1.0, &slope)) < 1e-9 * (1.0 + h) * group.size());
+        }
+    }
+}
