@@ -11,13 +11,14 @@ pub struct Case {
     pub bench: &'static str,
     system: Arc<System>,
     method: Method,
-    quantum: f64,
+    quantum: Quantum,
     /// Simulated time, s.
     pub stop: f64,
 }
 
 impl Case {
     pub fn new(bench: &'static str, model: &Model, method: Method, quantum: f64, stop: f64) -> Self {
+        let quantum = Quantum::absolute(quantum);
         Case { bench, system: Arc::new(lower(model).expect("it is sound")), method, quantum, stop }
     }
 
@@ -26,13 +27,23 @@ impl Case {
         Case { system: Arc::clone(&self.system), method, ..*self }
     }
 
-    fn begin(&self, backend: Backend) -> Run {
-        let quantum = Quantum::absolute(self.quantum);
+    /// The same with another quantum, to another time.
+    pub fn with(&self, quantum: f64, stop: f64) -> Self {
+        Case { system: Arc::clone(&self.system), quantum: Quantum::absolute(quantum), stop, ..*self }
+    }
+
+    /// The same with quanta that are this part of |x|, too.
+    pub fn relative(self, relative: f64) -> Self {
+        Case { quantum: Quantum { relative, ..self.quantum }, ..self }
+    }
+
+    /// A run that is started.
+    pub fn begin(&self, backend: Backend) -> Run {
         let experiment = Experiment {
             stop: self.stop,
             method: self.method,
             backend,
-            quanta: vec![QuantumRule { pattern: "*".to_owned(), quantum }],
+            quanta: vec![QuantumRule { pattern: "*".to_owned(), quantum: self.quantum }],
             ..Experiment::default()
         };
         let mut run = Run::new(Arc::clone(&self.system), &experiment).expect("it starts");
@@ -83,15 +94,18 @@ impl Case {
     ) -> Measured {
         Measured {
             bench: self.bench,
-            method: self.method.name(),
-            by,
+            method: self.method.name().to_owned(),
+            by: by.to_owned(),
+            setting: self.quantum.absolute,
             time,
             simulated: self.stop,
             steps: run.statistics().engine.steps,
             transitions: (!run.taken.is_empty()).then_some(run.taken.len()),
             error_of,
             error,
-            ratio,
+            wanted: None,
+            to_floor: ratio,
+            to_ours: None,
         }
     }
 }

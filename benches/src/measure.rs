@@ -7,9 +7,11 @@ pub struct Measured {
     /// Which problem.
     pub bench: &'static str,
     /// By which engine.
-    pub method: &'static str,
+    pub method: String,
     /// Who solved it.
-    pub by: &'static str,
+    pub by: String,
+    /// Quantum or tolerance.
+    pub setting: f64,
     /// What it took.
     pub time: Time,
     /// Simulated time, s.
@@ -22,16 +24,20 @@ pub struct Measured {
     pub error_of: &'static str,
     /// Its absolute value.
     pub error: f64,
+    /// The largest error that was allowed, where `setting` was chosen by it.
+    pub wanted: Option<f64>,
     /// Median of the ratios of its CPU time to that of the floor run just before; 1 for the floor, none without one.
-    pub ratio: Option<f64>,
+    pub to_floor: Option<f64>,
+    /// CPU time over that of our quickest engine that is as exact.
+    pub to_ours: Option<f64>,
 }
 
 /// Medians.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Time {
     /// By the clock on the wall, ms.
     pub wall_ms: f64,
-    /// Of this thread alone, ms: what others do at the same time disturbs it less.
+    /// Of the processor, ms: what others do at the same time disturbs it less.
     pub cpu_ms: f64,
 }
 

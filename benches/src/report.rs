@@ -1,37 +1,97 @@
+//! Tables for people; `rows` has the same for machines.
+
 use crate::build::Built;
 use crate::language::Told;
 use crate::measure::Measured;
+use crate::precision::Point;
 use crate::recording::Recorded;
-use serde_json::json;
+use crate::scale::Scaled;
+use crate::stamp::Stamp;
 
-/// The table for people.
-pub fn markdown(results: &[Measured]) -> String {
-    let mut text = String::from(
-        "| bench | engine | by | wall, ms | × real time | CPU, ms | steps | ns per step | transitions | error | error of | × floor |\n\
-         | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- | ---: |\n",
+/// Everything that was measured.
+#[derive(Clone, Debug, Default)]
+pub struct Results {
+    /// Engines beside floors and peers.
+    pub runs: Vec<Measured>,
+    pub built: Vec<Built>,
+    pub told: Vec<Told>,
+    pub recorded: Vec<Recorded>,
+    pub points: Vec<Point>,
+    pub scaled: Vec<Scaled>,
+}
+
+/// For people: the tables of what was measured.
+pub fn markdown(stamp: &Stamp, results: &Results) -> String {
+    let Stamp { date, machine, commit } = stamp;
+    let mut text = format!(
+        "{date}, {machine}, {commit}. Medians; machines are noisy: read ratios, and no speed without its error.\n"
     );
-    for r in results {
-        let transitions = r.transitions.map_or_else(|| "–".to_owned(), |n| n.to_string());
-        let ratio = r.ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}"));
+    let tables = [
+        (results.runs.is_empty(), runs_markdown(&results.runs)),
+        (results.scaled.is_empty(), scaled_markdown(&results.scaled)),
+        (results.built.is_empty(), built_markdown(&results.built)),
+        (results.told.is_empty(), told_markdown(&results.told)),
+        (results.recorded.is_empty(), recorded_markdown(&results.recorded)),
+    ];
+    for (_, table) in tables.iter().filter(|(empty, _)| !empty) {
+        text.push('\n');
+        text.push_str(table);
+    }
+    text
+}
+
+fn runs_markdown(runs: &[Measured]) -> String {
+    let mut text = String::from(
+        "| bench | to | by | engine | quantum or tolerance | wall, ms | × real time | CPU, ms | steps | ns per step | transitions | error | error of | × floor | × ours |\n\
+         | --- | ---: | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- | ---: | ---: |\n",
+    );
+    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+    for r in runs {
         text += &format!(
-            "| {} | {} | {} | {:.3} | {:.0} | {:.3} | {} | {:.1} | {transitions} | {:.1e} | {} | {ratio} |\n",
+            "| {} | {} | {} | {} | {:.1e} | {:.3} | {:.0} | {:.3} | {} | {:.1} | {} | {:.1e} | {} | {} | {} |\n",
             r.bench,
-            r.method,
+            or_dash(r.wanted.map(|wanted| format!("{wanted:.0e}"))),
             r.by,
+            r.method,
+            r.setting,
             r.time.wall_ms,
             real_time(r),
             r.time.cpu_ms,
             r.steps,
             per_step(r),
+            or_dash(r.transitions.map(|count| count.to_string())),
             r.error,
             r.error_of,
+            or_dash(r.to_floor.map(|ratio| format!("{ratio:.2}"))),
+            or_dash(r.to_ours.map(|ratio| format!("{ratio:.2}"))),
+        );
+    }
+    text
+}
+
+fn scaled_markdown(scaled: &[Scaled]) -> String {
+    let mut text = String::from(
+        "| scale | engine | states | fronts | steps | CPU, ms | ns per step | B per state |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+    );
+    for s in scaled {
+        text += &format!(
+            "| {} | {} | {} | {} | {} | {:.2} | {:.1} | {:.0} |\n",
+            s.system,
+            s.method.name(),
+            s.states,
+            s.fronts.map_or_else(|| "–".to_owned(), |fronts| fronts.to_string()),
+            s.steps,
+            s.cpu_ms,
+            s.ns_per_step(),
+            s.bytes_per_state(),
         );
     }
     text
 }
 
 /// From system to started run, for people.
-pub fn built_markdown(built: &[Built]) -> String {
+fn built_markdown(built: &[Built]) -> String {
     let mut text = String::from(
         "| build | states | programs | lift, ns per state | start, ns per state | in all, s | B per state | peak, B per state |\n\
          | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
@@ -53,7 +113,7 @@ pub fn built_markdown(built: &[Built]) -> String {
 }
 
 /// Recording, for people.
-pub fn recorded_markdown(recorded: &[Recorded]) -> String {
+fn recorded_markdown(recorded: &[Recorded]) -> String {
     let mut text = String::from(
         "| recording | rows | thread of the run, CPU, ms | all threads, CPU, ms | wall, ms | completing the file, ms | × thread | × all | × wall |\n\
          | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
@@ -76,7 +136,7 @@ pub fn recorded_markdown(recorded: &[Recorded]) -> String {
 }
 
 /// From text to started run, for people.
-pub fn told_markdown(told: &[Told]) -> String {
+fn told_markdown(told: &[Told]) -> String {
     let mut text = String::from(
         "| language | lines | states | lines per s | in all, s | ns per state or line | of which | B per state or line | at the peak |\n\
          | --- | ---: | ---: | ---: | ---: | ---: | --- | ---: | ---: |\n",
@@ -101,63 +161,12 @@ pub fn told_markdown(told: &[Told]) -> String {
     text
 }
 
-/// The same for machines.
-pub fn json(results: &[Measured], built: &[Built], told: &[Told]) -> String {
-    let told = told.iter().map(|t| {
-        let stages: serde_json::Map<_, _> =
-            t.stages.iter().map(|(stage, ms)| ((*stage).to_owned(), json!(ms))).collect();
-        json!({
-            "bench": "language",
-            "text": t.text,
-            "lines": t.lines,
-            "states": t.states,
-            "stages_ms": stages,
-            "bytes": t.held,
-            "peak_bytes": t.peak,
-        })
-    });
-    let built = built.iter().map(|b| {
-        json!({
-            "bench": "build",
-            "system": b.system,
-            "states": b.states,
-            "programs": b.programs,
-            "lift_ns_per_state": b.per_state(b.lift_ms),
-            "start_ns_per_state": b.per_state(b.start_ms),
-            "bytes_per_state": b.bytes / b.states,
-            "peak_bytes_per_state": b.peak / b.states,
-        })
-    });
-    let rows: Vec<_> = results
-        .iter()
-        .map(|r| {
-            json!({
-                "bench": r.bench,
-                "engine": r.method,
-                "by": r.by,
-                "wall_ms": r.time.wall_ms,
-                "cpu_ms": r.time.cpu_ms,
-                "real_time_factor": real_time(r),
-                "steps": r.steps,
-                "ns_per_step": per_step(r),
-                "transitions": r.transitions,
-                "error": r.error,
-                "error_of": r.error_of,
-                "ratio_to_floor": r.ratio,
-            })
-        })
-        .chain(built)
-        .chain(told)
-        .collect();
-    format!("{:#}\n", serde_json::Value::from(rows))
-}
-
 /// Simulated time over wall time.
-fn real_time(r: &Measured) -> f64 {
+pub fn real_time(r: &Measured) -> f64 {
     1e3 * r.simulated / r.time.wall_ms
 }
 
 /// CPU time per step, ns.
-fn per_step(r: &Measured) -> f64 {
+pub fn per_step(r: &Measured) -> f64 {
     1e6 * r.time.cpu_ms / r.steps as f64
 }

@@ -1,8 +1,9 @@
-//! Systems of the literature on quantised states: a stiff pair, a front that travels through cells at rest, and a line
-//! of coils and capacitors.
+//! Systems of the literature on quantised states: a stiff pair, a front that travels through cells at rest, a line of
+//! coils and capacitors, and a converter.
 
 use crate::case::{Case, bits, bits_of, largest_error};
 use crate::floor::line::run as floor;
+use crate::language::model;
 use crate::measure::Measured;
 use sophy_run::{Method, Run};
 use sophy_testkit::stiff::{AdvectionReaction, LcLine, Smooth, stiff_pair, stiff_pair_at};
@@ -12,7 +13,7 @@ const SECTIONS: usize = 500;
 
 /// All of them.
 pub fn bench() -> Vec<Measured> {
-    [pair(), front(), line()].concat()
+    [pair(), front(), line(), buck()].concat()
 }
 
 fn pair() -> Vec<Measured> {
@@ -26,6 +27,17 @@ fn front() -> Vec<Measured> {
     let end = front.runge_kutta(1.0, 2e-4);
     let case = Case::new("advection–reaction-1000", &front.model(), Method::Qss2, 1e-3, 1.0);
     by_each(&case, &[Method::Qss2, Method::Liqss2, Method::Liqss3], &end)
+}
+
+/// With quanta as in the literature, absolute and relative. By its end every period is as the one before; see
+/// `tests/reference/buck`.
+fn buck() -> Vec<Measured> {
+    let end = [-7.427_911_190_013_591e-5, 15.713_924_165_610_011];
+    let model = model(include_str!("../../examples/buck/buck.hsml"), &mut Vec::new());
+    let case = Case::new("buck converter", &model, Method::Liqss2, 1e-4, 0.01).relative(1e-4);
+    let rows = by_each(&case, &[Method::Liqss2, Method::Liqss3], &end);
+    assert!(rows.iter().all(|row| row.transitions == Some(400)), "{rows:?}");
+    rows
 }
 
 /// QSS2 beside the floor, to the bit; the others alone.

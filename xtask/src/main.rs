@@ -21,7 +21,8 @@ fn main() -> ExitCode {
         Some("bench") => steps::bench(&further),
         Some("fuzz") => steps::fuzz(&further),
         _ => Err("cargo xtask ci      formatting, lints, all tests and a short fuzzing campaign\n\
-                  cargo xtask bench   speed beside hand-written loops, in release mode; `language` alone\n\
+                  cargo xtask bench   speed beside hand-written loops and other software, in release mode: [--name NAME]\n\
+                  \x20                   [engine|peers|figures|build|language]\n\
                   cargo xtask fuzz    broken models thrown at the readers, in release mode: [--inputs N]\n\
                   \x20                   [--seconds S] [--seed K] [hsml|xml|hsml-model|xml-model]"
             .to_owned()),

@@ -88,10 +88,12 @@ impl Journal {
         Journal { entries: Vec::new(), wanted: true }
     }
 
-    /// Writes a line.
+    /// Writes a line, if they are wanted.
     #[inline]
     pub fn push(&mut self, record: Record) {
-        self.entries.push(record);
+        if self.wanted {
+            self.entries.push(record);
+        }
     }
 
     /// Number of lines.

@@ -14,7 +14,7 @@ pub struct Experiment {
     pub method: Method,
     /// How equations are evaluated.
     pub backend: Backend,
-    /// Accuracy asked for where no quantum is given: ΔQ = tolerance·max(|x|, 10⁻³ units).
+    /// Error accepted in states without a quantum, as a fraction of their largest |x|; see [`Quantum::from_tolerance`].
     pub tolerance: f64,
     /// Quanta by name pattern; the last rule that matches a state counts.
     pub quanta: Vec<QuantumRule>,

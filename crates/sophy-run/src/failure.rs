@@ -166,7 +166,10 @@ impl Reporter<'_> {
                 failure.span = self.rate_span(state);
                 failure.notes.push(self.equation(state));
                 failure.notes.push(self.values(self.rate_sources(state), time));
-                failure.helps.push(format!("give `{name}` a larger quantum"));
+                failure.helps.push(format!(
+                    "if `{name}` should not grow without bound here, give it a smaller quantum; if it does not, and \
+                     its quantum is near the last digits of its value, a larger one"
+                ));
                 failure
             }
             Fault::Chattering { watch, time } => {

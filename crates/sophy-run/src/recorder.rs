@@ -40,6 +40,8 @@ pub struct Recorder {
     span: f64,
     /// The longest time between two rows, s.
     longest: f64,
+    /// Whether states may curve between two rows by more than their quanta: q of the third order follows a parabola.
+    curved_states: bool,
     /// Whether a kink is crossed at the pending instant: a column may jump there.
     kink: bool,
     /// The row just before it, and the one just behind.
@@ -83,6 +85,7 @@ impl Recorder {
             stop: experiment.stop,
             span: experiment.stop - experiment.start,
             longest: f64::INFINITY,
+            curved_states: experiment.method.order() > 2,
             kink: false,
             before_kink: Default::default(),
             behind_kink: Default::default(),
@@ -326,8 +329,9 @@ impl Recorder {
         time: f64,
         sinks: &mut [&mut dyn Sink],
     ) -> Result<(), SinkError> {
+        let part = if self.curved_states { (time - self.last_row) / PARTS_OF_CURVES } else { f64::INFINITY };
         while self.pending.is_none() && self.last_row.is_finite() {
-            let next = self.last_row + self.longest;
+            let next = self.last_row + self.longest.min(part);
             if next >= time || next <= self.last_row {
                 break;
             }
@@ -415,6 +419,8 @@ fn shown_of(reals: &[Real], labels: &[Label]) -> impl Iterator<Item = Real> {
     reals.iter().copied().chain(labels)
 }
 
+/// Into how many parts rows divide a segment of the third order.
+const PARTS_OF_CURVES: f64 = 8.0;
 /// How many rows a run has at least if an output is curved.
 const LEAST_ROWS: f64 = 500.0;
 /// How long an instant is, as a part of time.

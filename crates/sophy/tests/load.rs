@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
-use sophy::{Loaded, MemoryWorld, Root, Style, check, load, load_as, render, to_hsml, to_xml};
+use sophy::{
+    Loaded, MemoryWorld, Quantum, Root, Style, check, load, load_as, load_experiment, render, to_hsml, to_xml,
+};
+use sophy_testkit::repository;
 use std::path::Path;
 
 const PARTS: &str = "\
@@ -157,4 +160,21 @@ fn a_transition_of_sophy_xml_with_two_triggers_becomes_two() {
         let text = conversion.text.unwrap();
         assert_eq!(text.matches("transition leave").count(), transitions, "{text}");
     }
+}
+
+/// The rule of a tolerance, said as a quantum, means the same.
+#[test]
+fn a_quantum_can_count_from_the_largest_value_so_far() {
+    let experiment = "model = \"ball.hsml\"\n[engine]\nquantum = { default = 1e-3, y = { absolute = 1e-14, relative = 1e-5, largest = true } }\n";
+    let ball =
+        std::fs::read_to_string(repository().join("examples/bouncing-ball/bouncing-ball.hsml")).unwrap();
+    let world = MemoryWorld::default().with("ball.hsml", ball).with("ball.toml", experiment);
+    let loaded = load_experiment(&world, Path::new("ball.toml"));
+    assert_eq!(shown(&loaded), "");
+    let [default, y] = &loaded.setup.experiment.quanta[..] else { panic!("two quanta") };
+    assert_eq!((default.pattern.as_str(), default.quantum), ("*", Quantum::absolute(1e-3)));
+    let (found, expected) = (y.quantum, Quantum::from_tolerance(1e-4));
+    assert!(found.largest && expected.largest);
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+    assert!(near(found.absolute, expected.absolute) && near(found.relative, expected.relative), "{found:?}");
 }

@@ -118,16 +118,20 @@ fn factor(start: f64, finished: &Finished) -> f64 {
 
 fn statistics(finished: &Finished) -> String {
     let (engine, hybrid) = (&finished.report.statistics.engine, &finished.report.statistics.hybrid);
+    // A quantised engine never takes a step back: what it does in vain is to look for crossings.
+    let in_vain = engine.predictions.saturating_sub(engine.crossings);
     let lines = [
-        ("integrator steps", engine.steps),
-        ("right-hand sides", engine.rates),
-        ("  of these refreshed", engine.refreshes),
-        ("crossings predicted", engine.predictions),
+        ("steps", engine.steps),
+        ("evaluations of rates", engine.rates),
+        ("  because they bend", engine.refreshes),
+        ("events (transitions)", hybrid.transitions),
+        ("  instants of events", hybrid.instants),
+        ("  heard by nobody", hybrid.unused_events),
+        ("rejected steps", 0),
         ("crossings located", engine.crossings),
-        ("enclosures for these", engine.enclosures),
-        ("transitions", hybrid.transitions),
-        ("instants of change", hybrid.instants),
-        ("events nobody waited for", hybrid.unused_events),
+        ("  predicted", engine.predictions),
+        ("  rejected predictions", in_vain),
+        ("  enclosures for these", engine.enclosures),
     ];
     let lines: String =
         lines.iter().map(|(name, value)| format!("\n  {name:<26}{:>14}", count(*value))).collect();

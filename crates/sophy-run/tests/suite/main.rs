@@ -1,6 +1,7 @@
 //! Runs of whole systems against reference data and properties.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may panic
 
+mod allocation;
 mod automata;
 mod convergence;
 mod crossings;

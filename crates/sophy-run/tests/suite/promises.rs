@@ -145,6 +145,21 @@ fn where_a_value_jumps_with_a_condition_there_are_two_rows_and_curves_have_rows_
     assert!((table.time[falls] - 0.5).abs() < 0.0061, "{}", table.time[falls]);
 }
 
+/// A throw of two seconds up to 4.905 m is one step of QSS3: without rows in it a picture shows its chord, nothing.
+#[test]
+fn segments_of_the_third_order_have_rows_within_them() {
+    let mut b = Build::default();
+    b.component("");
+    let (x, v) = (b.state("x", 0.0), b.state("v", 9.81));
+    let here = b.location("all");
+    let (speed, gravity) = (b.read(v), b.number(-9.81));
+    b.rate(here, x, speed);
+    b.rate(here, v, gravity);
+    let table = run(&b.model(), &by(Method::Qss3, to(2.0, 1e-3))).table;
+    let highest = table.real("x").unwrap().iter().copied().fold(0.0, f64::max);
+    assert!(table.len() >= 9 && (highest - 4.905).abs() < 1e-9, "{} rows up to {highest} m", table.len());
+}
+
 /// A reset from outside (an estimator's): guards are decided again, and what is enabled is taken at once.
 #[test]
 fn a_reset_from_outside_is_seen_by_the_guards() {

@@ -61,7 +61,7 @@ pub fn cubic_leaves(d: [f64; 4], band: f64) -> f64 {
         let edge = if rises { band } else { -band };
         let beyond = cubic.at(to) - edge;
         if if rises { beyond >= 0.0 } else { beyond <= 0.0 } {
-            return Cubic([d0 - edge, d1, d2, d3]).root_between(from, to);
+            return Cubic([d0 - edge, d1, d2, d3]).root_between::<NEAR>(from, to);
         }
         (from, rises) = (to, !rises);
     }
@@ -69,10 +69,10 @@ pub fn cubic_leaves(d: [f64; 4], band: f64) -> f64 {
         return f64::INFINITY;
     }
     let edge = if rises { band } else { -band };
-    Cubic([d0 - edge, d1, d2, d3]).root_behind(from)
+    Cubic([d0 - edge, d1, d2, d3]).root_behind::<NEAR>(from)
 }
 
-/// The s > 0 at which `c₁ s + c₂ s² + c₃ s³` reaches `value`, to a few ulp.
+/// The s > 0 at which `c₁ s + c₂ s² + c₃ s³` reaches `value`, to 11 digits.
 ///
 /// - `c`: c₁, c₂ and c₃, not negative and not all 0
 /// - `value`: positive
@@ -84,19 +84,20 @@ pub fn rising_root([c1, c2, c3]: [f64; 3], value: f64) -> f64 {
     for alone in [1.0001 * (value / c2).sqrt(), value / c1] {
         s = if alone < s { alone } else { s };
     }
-    // From there Halley's method comes down, three digits for each that it has.
+    // From there Halley's method comes down.
     for _ in 0..MOST_STEPS {
-        let (rest, slope, bend) =
-            (s * (c1 + s * (c2 + s * c3)) - value, c1 + s * (2.0 * c2 + s * (3.0 * c3)), c2 + s * (3.0 * c3));
-        let step = rest * slope / (slope * slope - rest * bend);
+        let step = Cubic([-value, c1, c2, c3]).halley_step(s);
         s -= step;
-        let is_near = step.abs() <= 1e-6 * s;
+        let is_near = step.abs() <= ENOUGH * s;
         if is_near || step.is_nan() {
             break;
         }
     }
     s
 }
+
+/// Halley's method has three digits for each that it had before: after so small a step, relative to s, 11 of them.
+const ENOUGH: f64 = 1e-4;
 
 /// ∛x of a positive number to a few ulp, by multiplications and divisions only.
 #[must_use]
@@ -147,11 +148,11 @@ fn first_fall(p: [f64; 4]) -> Option<f64> {
     let mut falls = Sign::after(&[p1, p2, p3]) == Sign::Negative;
     for &to in &turns[..count] {
         if falls && cubic.is_negative_at(to) {
-            return finite(cubic.root_between(from, to));
+            return finite(cubic.root_between::<EXACT>(from, to));
         }
         (from, falls) = (to, !falls);
     }
-    if falls { finite(cubic.root_behind(from)) } else { None }
+    if falls { finite(cubic.root_behind::<EXACT>(from)) } else { None }
 }
 
 /// [`first_fall`] of a cubic scaled by powers of two, in value and in s, to c₀ of about 1 and no larger coefficients.
@@ -245,46 +246,73 @@ impl Cubic {
         value + error
     }
 
+    /// f f′/(f′² − ½ f f″): how far s is behind the root, by Halley's method.
+    #[inline]
+    fn halley_step(self, s: f64) -> f64 {
+        let [_, _, c2, c3] = self.0;
+        let (value, slope, bend) = (self.at(s), self.slope_at(s), c2 + s * (3.0 * c3));
+        value * slope / (slope * slope - value * bend)
+    }
+
     /// The root in a piece without turns, at whose ends the cubic has different signs.
     #[inline]
-    fn root_between(self, from: f64, to: f64) -> f64 {
+    fn root_between<const PRECISION: u8>(self, from: f64, to: f64) -> f64 {
         let [_, _, c2, c3] = self.0;
         let inflection = -c2 / (3.0 * c3);
         let start = if inflection > from && inflection < to {
-            inflection
+            // Up to its inflection it becomes steeper, which may be very far: the root is not behind where the slope of
+            // `from`, or two thirds of the curvature there, would lead.
+            let (value, curvature) = (self.at(from), c2 + 3.0 * c3 * from);
+            let by_line = from + (value / self.slope_at(from)).abs();
+            let by_square = from + (1.5 * (value / curvature).abs()).sqrt();
+            let near = if by_line < by_square { by_line } else { by_square };
+            if near < inflection { near } else { inflection }
         } else {
             // Value and curvature have one sign at one end.
             let curvature = c2 + 1.5 * c3 * (from + to);
             if self.at(from) * curvature > 0.0 { from } else { to }
         };
-        self.newton(start, from, to)
+        self.root_from::<PRECISION>(start, from, to)
     }
 
     /// The root behind the last turn; infinite if it is beyond all numbers.
     #[inline]
-    fn root_behind(self, from: f64) -> f64 {
+    fn root_behind<const PRECISION: u8>(self, from: f64) -> f64 {
         let [_, _, c2, c3] = self.0;
         let inflection = -c2 / (3.0 * c3);
         let mut from = from;
         if inflection > from && inflection < f64::INFINITY {
             // No turn is behind `from`, so that up to its inflection the cubic becomes flatter.
             if self.at(inflection) * self.at(from) <= 0.0 {
-                return self.newton(from, from, inflection);
+                return self.root_from::<PRECISION>(from, from, inflection);
             }
             from = inflection;
         }
-        // All derivatives lead to the root: it is not behind where any one of them alone would be.
-        let value = self.at(from);
-        let slope = self.slope_at(from);
-        let curvature = c2 + 3.0 * c3 * from;
-        let by_cube = libm::cbrt((value / c3).abs());
-        let by_square = (value / curvature).abs().sqrt();
-        let by_line = (value / slope).abs();
-        let mut bound = by_cube;
-        for other in [by_square, by_line] {
-            bound = if other < bound { other } else { bound };
+        // All derivatives lead to the root.
+        let (value, slope, curvature) = (self.at(from), self.slope_at(from), c2 + 3.0 * c3 * from);
+        let near = from + rising_root([slope.abs(), curvature.abs(), c3.abs()], value.abs());
+        if PRECISION == NEAR { near } else { self.newton(near, from, f64::INFINITY) }
+    }
+
+    /// The root between two places, from a start from which Newton's method converges from one side.
+    #[inline]
+    fn root_from<const PRECISION: u8>(self, start: f64, from: f64, to: f64) -> f64 {
+        if PRECISION == NEAR {
+            let mut s = start;
+            for _ in 0..MOST_NEAR_STEPS {
+                let step = self.halley_step(s);
+                let next = s - step;
+                let is_inside = next >= from && next <= to;
+                if !is_inside {
+                    break;
+                }
+                s = next;
+                if step.abs() <= ENOUGH * s {
+                    return s;
+                }
+            }
         }
-        self.newton(from + bound, from, f64::INFINITY)
+        self.newton(start, from, to)
     }
 
     /// Newton's method from a point from which it converges from one side, until it does not.
@@ -309,7 +337,13 @@ impl Cubic {
     }
 }
 
+/// A root to the last digits, for crossings.
+const EXACT: u8 = 0;
+/// A root at which the cubic is zero to 10 digits of its terms, for bands.
+const NEAR: u8 = 1;
 /// A turn is beyond zero if it is by this part of its terms.
 const TOUCHING: f64 = 1.0 / (1_u128 << 100) as f64;
 /// From a point on one side Newton's method takes fewer than ten.
 const MOST_STEPS: u32 = 64;
+/// Halley's method takes two or three; where it does not, Newton's is surer.
+const MOST_NEAR_STEPS: u32 = 8;

@@ -1,6 +1,7 @@
 //! Changes from outside: what they concern is evaluated afresh.
 
 use super::engine::Qss;
+use super::implicit::Ahead;
 use super::record::Place;
 use sophy_field::{AutomatonIndex, Entry, Equations, Fault, Journal, LocationIndex, SourceIndex, StateIndex};
 
@@ -78,11 +79,14 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// q of a state starts on x.
     fn synchronise(&mut self, i: usize, t: f64) {
         let x = self.record(i).x_at(t);
-        let quantum = self.own[i].quantum.at(x);
+        let quantum = self.own[i].quantum.next(x);
         let mut record = self.record_mut(i);
         record.set_q([x, 0.0, 0.0], t);
         record.set_quantum(quantum);
         self.own[i].repeats = 0;
+        if self.settings.implicit {
+            self.ahead[i] = Ahead::NEW;
+        }
     }
 
     pub(super) fn set_state(&mut self, state: StateIndex, value: f64, t: f64) -> Result<(), Fault> {
@@ -110,6 +114,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &watch in &code.armed[from] {
             self.disarm(e, watch);
         }
+        self.switchings += 1;
         self.locations[automaton] = location;
         self.note_entered(AutomatonIndex::new(automaton));
         self.decide_again(&code.readers);

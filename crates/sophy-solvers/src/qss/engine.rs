@@ -1,4 +1,6 @@
 use super::bend::{Bend, STRAIGHT};
+use super::group::MOST;
+use super::implicit::Ahead;
 use super::record::{Place, Record, RecordMut};
 use super::settings::{Quantum, Settings};
 use super::watches::WatchRecord;
@@ -26,6 +28,8 @@ pub struct Qss<const ORDER: usize> {
     pub(super) settings: Settings,
     /// Per state.
     pub(super) own: Vec<Own>,
+    /// Per state, if quantisation is implicit.
+    pub(super) ahead: Vec<Ahead>,
     /// The state whose rate is being evaluated only because it bends; `usize::MAX` if none.
     pub(super) refreshed: usize,
     /// See [`Qss::still_for`], of the block evaluated last.
@@ -41,6 +45,12 @@ pub struct Qss<const ORDER: usize> {
     pub(super) enclosed: Vec<Interval>,
     /// What a record held of q; empty in between.
     pub(super) kept: Vec<([f64; 3], f64)>,
+    /// What records held of x while a crossing is doubted, and since when; empty in between.
+    pub(super) doubting: Vec<(usize, [f64; 4], f64)>,
+    /// How often a location, a truth or a stair has changed: what is affine in its sources has kept its slopes since.
+    pub(super) switchings: u64,
+    /// States put at rest with the one that steps; empty in between.
+    pub(super) joined: Vec<StateIndex>,
     /// Watches to look at again before time goes on; while they are settled, the next of them in order.
     pub(super) dirty: Vec<WatchIndex>,
     pub(super) settling: BinaryHeap<Reverse<WatchIndex>>,
@@ -82,6 +92,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let rest = &equations.image[layout.rest as usize..];
         let quanta = std::mem::take(&mut settings.quanta);
         Qss {
+            ahead: vec![Ahead::NEW; if settings.implicit { states } else { 0 }],
             own: quanta.into_iter().map(|quantum| Own { quantum, bend: STRAIGHT, repeats: 0 }).collect(),
             settings,
             refreshed: usize::MAX,
@@ -93,6 +104,9 @@ impl<const ORDER: usize> Qss<ORDER> {
             memory: Memory::from(equations.image.as_slice()),
             enclosed: rest.iter().map(|&value| Interval::point(value)).collect(),
             kept: Vec::new(),
+            doubting: Vec::new(),
+            switchings: 0,
+            joined: Vec::with_capacity(MOST),
             dirty: Vec::new(),
             settling: BinaryHeap::new(),
             changed: Vec::new(),

@@ -13,20 +13,26 @@
 //! two swings in between stay below half of it (α = 5/2). With g = ½a²(a·q(0) + u) + ½a·u̇ + ½ü and y = 1/h this gives
 //! 24α·y³ − 12αa·y² + (2α + 1)a²·y = g/δ.
 //!
+//! What a neighbour does may turn x back at once, where it is next to the edge of the band: then two states would chase
+//! each other, quanta apart, in steps of rounding. A state that has hardly moved since its last step therefore begins
+//! anew with q = x, as by QSS, and comes to rest smoothly if its place of rest is near: with e = x − rest,
+//! e = e₀(1 − t/T)ⁿ for T = n/|a| and order n.
+//!
 //! On the average q is x, so that errors cancel; the literature lets q touch x from one side, and takes twice as many
 //! steps for the same bound of |x − q|. For the first order q is ΔQ ahead and left ΔQ behind.
 
 use super::engine::Qss;
+use super::group::Whereabouts;
 use sophy_field::Equations;
 use sophy_segment::rising_root;
 
 /// The rate of a state along its quantised trajectory: a·q + u.
 #[derive(Clone, Copy, Debug)]
-struct Linear {
-    /// ∂f/∂q of the state itself, 1/s; not positive.
-    a: f64,
+pub(super) struct Linear {
+    /// ∂f/∂q of the state itself, 1/s.
+    pub(super) a: f64,
     /// u, u̇, ½ü.
-    u: [f64; 3],
+    pub(super) u: [f64; 3],
 }
 
 /// α: how far x swings out between the ends of a quantised parabola.
@@ -89,39 +95,146 @@ impl Linear {
         let slope = a * start + u - (4.0 * SWING + 2.0) * delta * y;
         [start, slope, 0.5 * (a * slope + u1) + 12.0 * SWING * delta * y * y]
     }
+
+    /// A trajectory that begins at x, so that the rate is that of x itself. If x would come to rest within a quantum, it
+    /// leads there, after the delay; else it goes the way of x.
+    fn settle<const ORDER: usize>(self, x: f64, quantum: f64) -> ([f64; 3], f64) {
+        let rest = self.rest::<ORDER>();
+        let apart = x - rest[0];
+        if self.a < 0.0 && apart.abs() <= quantum {
+            let delay = ORDER as f64 / -self.a;
+            let way = match ORDER {
+                1 => [apart, 0.0, 0.0],
+                2 => [apart, -apart / delay, 0.0],
+                _ => [apart, -2.0 * apart / delay, apart / (delay * delay)],
+            };
+            return ([x, rest[1] + way[1], rest[2] + way[2]], delay);
+        }
+        let Linear { a, u: [u, u1, _] } = self;
+        let slope = a * x + u;
+        let curve = 0.5 * (a * slope + u1);
+        ([x, if ORDER > 1 { slope } else { 0.0 }, if ORDER > 2 { curve } else { 0.0 }], f64::INFINITY)
+    }
+
+    /// The polynomial motion ṙ = a·r + u on which x rests beside its moving neighbours.
+    fn rest<const ORDER: usize>(self) -> [f64; 3] {
+        let Linear { a, u } = self;
+        let mut rest = [0.0; 3];
+        let mut next = 0.0;
+        for k in (0..ORDER).rev() {
+            rest[k] = (next - u[k]) / a;
+            next = k as f64 * rest[k];
+        }
+        rest
+    }
 }
 
+/// What belongs to a state that is quantised ahead.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ahead {
+    /// x at its last step.
+    last: f64,
+    /// How many steps in a row it has hardly moved.
+    idle: u32,
+    /// When x comes to rest on the way it is, s; infinite if it is on another way.
+    pub(super) settles: f64,
+    /// ∂f/∂q of the state itself where that is a constant, and the count of switchings for which it is one.
+    slope: (f64, u64),
+    pub(super) whereabouts: Whereabouts,
+}
+
+impl Ahead {
+    pub(super) const NEW: Ahead = Ahead {
+        last: f64::NAN,
+        idle: 0,
+        settles: f64::INFINITY,
+        slope: (f64::NAN, u64::MAX),
+        whereabouts: Whereabouts::NEW,
+    };
+
+    /// A step at x.
+    pub(super) fn arrive(&mut self, x: f64) {
+        self.last = x;
+        self.settles = f64::INFINITY;
+    }
+}
+
+/// q takes value and slope of x, eq. (3.7).
+pub(super) fn explicit<const ORDER: usize>([x, slope, bend, _]: [f64; 4]) -> [f64; 3] {
+    [x, if ORDER > 1 { slope } else { 0.0 }, if ORDER > 2 { bend } else { 0.0 }]
+}
+
+/// A state that has moved by less than this part of its quantum since its last step has hardly moved.
+const HARDLY: f64 = 0.001;
+/// So many steps in a row in which it has hardly moved are enough.
+const MOST_IDLE: u32 = 3;
+
 impl<const ORDER: usize> Qss<ORDER> {
-    /// Value and slope of the next quantised trajectory of a state whose own rate pulls it back; `None` if it does not.
-    pub(super) fn quantise_ahead(
-        &mut self,
-        e: &Equations,
-        i: usize,
-        t: f64,
-        quantum: f64,
-    ) -> Option<[f64; 3]> {
-        let a = self.own_slope(e, i, t);
+    /// The next quantised trajectory of a state at its step.
+    pub(super) fn quantise_ahead(&mut self, e: &Equations, i: usize, t: f64, quantum: f64) -> [f64; 3] {
+        let linear = self.linear(e, i, t);
+        let x = self.record(i).x_from(t);
+        let ahead = &mut self.ahead[i];
+        let hardly_moved = t < ahead.settles && (x[0] - ahead.last).abs() < HARDLY * quantum;
+        ahead.idle = if hardly_moved { ahead.idle + 1 } else { 0 };
+        let turned_back = linear.a < 0.0 && ahead.idle >= MOST_IDLE;
+        ahead.arrive(x[0]);
+        ahead.whereabouts.note(x[0], quantum);
+        if linear.a < 0.0
+            && ahead.whereabouts.is_restless()
+            && let Some(q) = self.rest_together(e, i, t)
+        {
+            return q;
+        }
+        let q = linear.quantise::<ORDER>(x[0], quantum);
+        if turned_back {
+            self.go_to_rest(i, t, linear, quantum)
+        } else if linear.a <= 0.0 && q.iter().all(|q| q.is_finite()) {
+            q
+        } else {
+            explicit::<ORDER>(x)
+        }
+    }
+
+    /// The quantised trajectory that begins at x, and how long x follows it to its rest.
+    pub(super) fn go_to_rest(&mut self, i: usize, t: f64, linear: Linear, quantum: f64) -> [f64; 3] {
+        let (q, delay) = linear.settle::<ORDER>(self.record(i).x_at(t), quantum);
+        self.ahead[i].settles = t + delay;
+        q
+    }
+
+    /// The rate of a state as a function of its own quantised trajectory.
+    pub(super) fn linear(&mut self, e: &Equations, i: usize, t: f64) -> Linear {
+        let (known, switchings) = self.ahead[i].slope;
+        let a = if switchings == self.switchings {
+            known
+        } else {
+            let a = self.slope(e, i, i, t);
+            if ORDER > 1 && e.entries(&e.own[i]).iter().all(|&own| !e.block(own, &self.locations).bends) {
+                self.ahead[i].slope = (a, self.switchings);
+            }
+            a
+        };
         let record = self.record(i);
         let (x, q) = (record.x_from(t), record.q_from(t));
         let mut u = [0.0; 3];
         for k in 0..ORDER {
             u[k] = (k + 1) as f64 * x[k + 1] - a * q[k];
         }
-        let q = Linear { a, u }.quantise::<ORDER>(x[0], quantum);
-        (a <= 0.0 && q.iter().all(|q| q.is_finite())).then_some(q)
+        Linear { a, u }
     }
 
-    /// ∂f/∂q of a state by its own quantised trajectory: the coefficient of a motion of this state alone.
-    fn own_slope(&mut self, e: &Equations, i: usize, t: f64) -> f64 {
+    /// ∂f/∂q of a state by the quantised trajectory of a source: the coefficient of a motion of this one alone.
+    pub(super) fn slope(&mut self, e: &Equations, state: usize, of: usize, t: f64) -> f64 {
         let mut slope = 0.0;
-        for &entry in e.entries(&e.own[i]) {
+        for &entry in e.entries(&e.own[state]) {
             let block = e.block(entry, &self.locations);
             // The others stand still.
             for &source in e.sources(&block.sources) {
                 let record = self.record(source.position());
                 let (q, value) = ((record.q(), record.tq()), record.q_at(t));
                 self.kept.push(q);
-                let slope = if source.position() == i { 1.0 } else { 0.0 };
+                let slope = if source.position() == of { 1.0 } else { 0.0 };
                 self.record_mut(source.position()).set_q([value, slope, 0.0], t);
             }
             // As many coefficients as its rates have anyway, so that one native function serves both.
@@ -132,7 +245,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             }
             self.kept = kept;
             for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
-                if row.state.position() == i {
+                if row.state.position() == state {
                     slope = e.result(row.result, &self.memory, 2)[1];
                 }
             }

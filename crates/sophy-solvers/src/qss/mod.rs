@@ -20,7 +20,9 @@
 
 mod bend;
 mod change;
+mod doubt;
 mod engine;
+mod group;
 mod implicit;
 mod record;
 mod settings;

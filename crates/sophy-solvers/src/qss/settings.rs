@@ -5,17 +5,29 @@ pub struct Quantum {
     pub absolute: f64,
     /// Fraction of |x|; 0 for a fixed quantum.
     pub relative: f64,
+    /// Whether |x| is the largest one at a change of q so far, instead of the present one.
+    pub largest: bool,
 }
+
+/// Quanta are so much smaller than a tolerance: what an error is in quanta depends on the model, up to 50
+/// in the examples (docs/book/accuracy.md).
+const MARGIN: f64 = 0.1;
+
+/// What is no larger than this, in the state's unit, counts as 0: a state that starts at 0 has no size of its own yet.
+const SMALLEST: f64 = 1e-9;
 
 impl Quantum {
     /// A fixed quantum.
     pub fn absolute(absolute: f64) -> Self {
-        Quantum { absolute, relative: 0.0 }
+        Quantum { absolute, relative: 0.0, largest: false }
     }
 
-    /// From a relative tolerance: ΔQ = tolerance·max(|x|, 10⁻³ units).
+    /// For a global error of the size of `tolerance`, as a fraction of the largest |x|: a tenth of it, of the
+    /// largest |x| so far. The present |x| would ask an oscillation for an accuracy where it passes 0 that its tops
+    /// have spoiled already.
     pub fn from_tolerance(tolerance: f64) -> Self {
-        Quantum { absolute: tolerance * 1e-3, relative: tolerance }
+        let relative = MARGIN * tolerance;
+        Quantum { absolute: SMALLEST * relative, relative, largest: true }
     }
 
     /// ΔQ at x.
@@ -23,6 +35,16 @@ impl Quantum {
     pub fn at(self, x: f64) -> f64 {
         let relative = self.relative * x.abs();
         if relative > self.absolute { relative } else { self.absolute }
+    }
+
+    /// ΔQ at x, the next value of q.
+    #[inline]
+    pub(super) fn next(&mut self, x: f64) -> f64 {
+        let quantum = self.at(x);
+        if self.largest {
+            self.absolute = quantum;
+        }
+        quantum
     }
 }
 
@@ -49,5 +71,24 @@ impl Settings {
     pub fn for_span(quanta: Vec<Quantum>, span: f64) -> Self {
         let span = if span > 0.0 { span } else { 1.0 };
         Settings { quanta, implicit: false, trust: span / 100.0, window: span / 16.0, search_budget: 20_000 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Quantum;
+
+    #[test]
+    fn a_quantum_of_a_tolerance_never_shrinks() {
+        let mut quantum = Quantum::from_tolerance(1e-2);
+        let found = [0.0, 2.0, -1.0, 0.0, -4.0, 3.0].map(|x| quantum.next(x));
+        let expected = [1e-12, 2e-3, 2e-3, 2e-3, 4e-3, 4e-3];
+        assert!(found.iter().zip(expected).all(|(found, expected)| (found / expected - 1.0).abs() < 1e-12));
+    }
+
+    #[test]
+    fn another_relative_quantum_follows_the_value() {
+        let mut quantum = Quantum { absolute: 1e-3, relative: 0.1, largest: false };
+        assert_eq!([0.0, 2.0, 1.0, -1e-3].map(|x| quantum.next(x)), [1e-3, 0.2, 0.1, 1e-3]);
     }
 }

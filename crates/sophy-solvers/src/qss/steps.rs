@@ -3,6 +3,7 @@
 
 use super::bend::STRAIGHT;
 use super::engine::{Failed, Qss};
+use super::implicit::explicit;
 use super::record::{leaves, leaves_from_middle};
 use sophy_field::{Block, Entry, Equations, Fault, Jet, Journal, NOW, RowResult, StateIndex};
 
@@ -28,34 +29,80 @@ impl<const ORDER: usize> Qss<ORDER> {
         let record = self.record(i);
         let (before, x) = (record.tq(), record.x_from(t));
         self.count_repeats(i, before, t)?;
-        // δ_int: the quantised trajectory takes value and slope of the integrated one, eq. (3.7)
-        let mut quantum = self.own[i].quantum.at(x[0]);
-        let mut q = [x[0], if ORDER > 1 { x[1] } else { 0.0 }, if ORDER > 2 { x[2] } else { 0.0 }];
-        if self.settings.implicit {
-            q = self.quantise_ahead(e, i, t, quantum).unwrap_or(q);
-            // It begins at the edge of the band and moves inward, but for rounding.
-            quantum += 1e-9 * quantum + 4.0 * f64::EPSILON * x[0].abs();
-        }
-        let mut record = self.record_mut(i);
-        record.set_q(q, t);
-        record.set_quantum(quantum);
-        self.statistics.steps += 1;
-        if journal.wanted {
-            journal.push(sophy_field::Record::Step { time: t, state: StateIndex::new(i) });
-        }
-        // λ: what depends on it is evaluated, eq. (3.2.2)
-        for &entry in e.entries(&e.influence[i]) {
-            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
-        }
+        let quantum = self.own[i].quantum.next(x[0]);
+        let implicit = self.settings.implicit;
+        let q = if implicit { self.quantise_ahead(e, i, t, quantum) } else { explicit::<ORDER>(x) };
+        self.step_to(e, i, t, q, quantum, journal)?;
         // Its own rate, if it was among them, has scheduled it already.
         let evaluated = self.record(i).tx();
-        if evaluated < t && !self.settings.implicit {
+        if evaluated < t && !implicit {
             // q is x now, up to the highest coefficient.
             self.due_in(i, t, evaluated, leaves_from_middle::<ORDER>(x, quantum));
         } else if self.agenda.time(i as u32) <= t {
             self.schedule(i, t);
         }
         Ok(())
+    }
+
+    /// A state steps although its band is not left: it begins anew with q = x.
+    pub(super) fn step_from_x(
+        &mut self,
+        e: &Equations,
+        i: usize,
+        t: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Failed> {
+        let x = self.record(i).x_at(t);
+        let quantum = self.own[i].quantum.next(x);
+        let linear = self.linear(e, i, t);
+        self.ahead[i].arrive(x);
+        let q = self.go_to_rest(i, t, linear, quantum);
+        self.step_to(e, i, t, q, quantum, journal)
+    }
+
+    /// q of a state follows these coefficients from now on, and what depends on it is evaluated.
+    #[inline]
+    fn step_to(
+        &mut self,
+        e: &Equations,
+        i: usize,
+        t: f64,
+        q: [f64; 3],
+        quantum: f64,
+        journal: &mut Journal,
+    ) -> Result<(), Failed> {
+        self.take_quantised(i, t, q, quantum);
+        self.tell_step(i, t, journal);
+        // λ: what depends on it is evaluated, eq. (3.2.2)
+        for &entry in e.entries(&e.influence[i]) {
+            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+        }
+        while let Some(state) = self.joined.pop() {
+            self.tell_step(state.position(), t, journal);
+            for &entry in e.entries(&e.influence[state.position()]) {
+                self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// q of a state follows these coefficients from now on.
+    #[inline]
+    pub(super) fn take_quantised(&mut self, i: usize, t: f64, q: [f64; 3], quantum: f64) {
+        // Ahead, it begins at the edge of the band and moves inward, but for rounding.
+        let slack = 1e-9 * quantum + 4.0 * f64::EPSILON * q[0].abs();
+        let implicit = self.settings.implicit;
+        let mut record = self.record_mut(i);
+        record.set_q(q, t);
+        record.set_quantum(if implicit { quantum + slack } else { quantum });
+    }
+
+    #[inline]
+    fn tell_step(&mut self, i: usize, t: f64, journal: &mut Journal) {
+        self.statistics.steps += 1;
+        if journal.wanted {
+            journal.push(sophy_field::Record::Step { time: t, state: StateIndex::new(i) });
+        }
     }
 
     /// A rate is evaluated again because it bends.
@@ -170,6 +217,9 @@ impl<const ORDER: usize> Qss<ORDER> {
     #[inline]
     fn due_in(&mut self, i: usize, t: f64, evaluated: f64, delay: f64) {
         let mut next = t + delay;
+        if self.settings.implicit {
+            next = next.min(self.ahead[i].settles);
+        }
         let own = &mut self.own[i];
         if own.bend.bends {
             let trusted = evaluated + own.bend.trusted_for::<ORDER>(evaluated, next - evaluated);

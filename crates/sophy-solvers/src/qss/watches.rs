@@ -28,6 +28,11 @@ pub(super) struct WatchRecord {
     due: Due,
     /// Taken off the difference.
     pub(super) bias: f64,
+    /// When it was last located on the surface, s, and what the difference may then be beside 0.
+    located: f64,
+    blur: f64,
+    /// When a crossing of it was last doubted, s.
+    pub(super) doubted: f64,
     /// Last sign change, or what was taken for one, s, and how often at that instant.
     last: f64,
     repeats: u32,
@@ -38,6 +43,11 @@ impl WatchRecord {
     fn repeat_at(&mut self, t: f64) {
         self.repeats = if self.last == t { self.repeats + 1 } else { 0 };
         self.last = t;
+    }
+
+    /// Whether it was located at `t` and a jump since has left it on the surface.
+    fn is_still_there(&self, c: &Jet, t: f64) -> bool {
+        self.located == t && c[0].abs() <= self.blur.max(blur(c, t))
     }
 }
 
@@ -69,6 +79,11 @@ const EQUAL: f64 = 64.0;
 /// The least part of its window that a search must decide.
 const LEAST_PROGRESS: f64 = 1e-4;
 
+/// What a difference may be beside 0 at its root, because instants are numbers.
+fn blur(c: &Jet, t: f64) -> f64 {
+    2.0 * c[1].abs() * (t.abs().next_up() - t.abs())
+}
+
 impl Default for WatchRecord {
     fn default() -> Self {
         WatchRecord {
@@ -78,6 +93,9 @@ impl Default for WatchRecord {
             fresh: Fresh::No,
             due: Due::Root,
             bias: 0.0,
+            located: f64::NAN,
+            blur: 0.0,
+            doubted: f64::NAN,
             last: f64::NEG_INFINITY,
             repeats: 0,
         }
@@ -150,9 +168,14 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         let c = self.difference(e, watch, t)?;
         let decided = self.watches[watch.position()].sign;
+        if self.settings.implicit && self.turns_back(e, watch, t)? {
+            return self.begin_at_x(e, watch, t, journal);
+        }
         let sign = if due == Due::Root && decided != Sign::Zero {
             // The difference is zero here, by what was located: the residue of rounding is taken off.
-            self.watches[watch.position()].bias += c[0];
+            let record = &mut self.watches[watch.position()];
+            record.bias += c[0];
+            (record.located, record.blur) = (t, 2.0 * record.bias.abs() + blur(&c, t));
             decided.opposite()
         } else {
             self.sign_after(e, watch, t, &c)?
@@ -189,13 +212,15 @@ impl<const ORDER: usize> Qss<ORDER> {
                 self.predict(e, watch, t)?;
                 continue;
             }
-            let sign = match fresh {
-                Fresh::No => {
-                    let c = self.difference(e, watch, t)?;
-                    self.sign_after(e, watch, t, &c)?
-                }
-                fresh => self.decide(e, watch, t, fresh)?,
+            let mut c = match fresh {
+                Fresh::No => self.difference(e, watch, t)?,
+                fresh => self.difference_afresh(e, watch, t, fresh)?,
             };
+            if self.settings.implicit && c[0] == 0.0 && self.reads_hidden_rates(e, watch, t) {
+                self.step_sources_from_x(e, watch, t, journal)?;
+                c = self.difference(e, watch, t)?;
+            }
+            let sign = self.sign_after(e, watch, t, &c)?;
             if fresh == Fresh::Armed {
                 // It has no past that it could have left.
                 self.watches[watch.position()].sign = sign;
@@ -245,14 +270,21 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
     }
 
-    /// The sign of a watch from scratch, and its bias.
-    fn decide(&mut self, e: &Equations, watch: WatchIndex, t: f64, fresh: Fresh) -> Result<Sign, Fault> {
+    /// The difference of a watch that was set from outside, and its bias from scratch.
+    fn difference_afresh(
+        &mut self,
+        e: &Equations,
+        watch: WatchIndex,
+        t: f64,
+        fresh: Fresh,
+    ) -> Result<Jet, Fault> {
         let code = &e.watches[watch.position()];
         let left = self.value_of(e, &code.left, t, 1)[0];
         let right = self.value_of(e, &code.right, t, 1)[0];
         let mut c = self.raw_difference(e, watch, t)?;
         let record = &mut self.watches[watch.position()];
-        let stays = fresh == Fresh::Reset && record.bias != 0.0 && c[0] == record.bias;
+        let stays = fresh == Fresh::Reset
+            && (record.bias != 0.0 && c[0] == record.bias || record.is_still_there(&c, t));
         let larger = if left.abs() > right.abs() { left.abs() } else { right.abs() };
         if stays || c[0].abs() <= 4.0 * (larger.next_up() - larger) {
             record.bias = c[0];
@@ -260,7 +292,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         } else {
             record.bias = 0.0;
         }
-        self.sign_after(e, watch, t, &c)
+        Ok(c)
     }
 
     /// The sign just right of `t`: the first coefficient that is not zero decides. Where all that the engine
@@ -348,6 +380,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         if self.memory[at as usize] == value {
             return false;
         }
+        self.switchings += 1;
         self.memory[at as usize] = value;
         self.enclosed[(at - e.layout.rest) as usize] = Interval::point(value);
         true
@@ -439,7 +472,12 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// Taylor coefficients of the watched difference at `t`, the bias taken off.
     pub(super) fn difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<Jet, Fault> {
         let mut c = self.raw_difference(e, watch, t)?;
-        c[0] -= self.watches[watch.position()].bias;
+        let record = &mut self.watches[watch.position()];
+        c[0] -= record.bias;
+        if record.is_still_there(&c, t) {
+            record.bias += c[0];
+            c[0] = 0.0;
+        }
         Ok(c)
     }
 

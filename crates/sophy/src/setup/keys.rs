@@ -12,7 +12,7 @@ use toml::de::DeTable;
 const SECTIONS: &[&str] = &["model", "system", "run", "engine", "knobs", "initial", "inputs", "record"];
 const RUN: &[&str] = &["start", "stop", "seed", "input_events", "initial_location"];
 const ENGINE: &[&str] = &["method", "quantum", "tolerance"];
-const QUANTUM: &[&str] = &["absolute", "relative"];
+const QUANTUM: &[&str] = &["absolute", "relative", "largest"];
 const INPUT: &[&str] = &["file", "column", "interpolate", "after"];
 const RECORD: &[&str] =
     &["variables", "every", "microsteps", "events_all", "output", "events", "plot", "phase"];
@@ -171,6 +171,7 @@ impl Reader<'_> {
                 match key.get_ref().as_ref() {
                     "absolute" => set(&mut quantum.absolute, self.values.number(value)),
                     "relative" => set(&mut quantum.relative, self.values.number(value)),
+                    "largest" => set(&mut quantum.largest, self.values.truth(value)),
                     _ => self.values.unknown_key("engine.quantum", key, QUANTUM),
                 }
             }
@@ -313,7 +314,7 @@ impl Reader<'_> {
 /// Whether a table is one quantum, not quanta by name.
 fn is_quantum(value: &Value<'_>) -> bool {
     let table = value.get_ref().as_table();
-    table.is_some_and(|table| QUANTUM.iter().any(|key| table.contains_key(*key)))
+    table.is_some_and(|table| ["absolute", "relative"].iter().any(|key| table.contains_key(*key)))
 }
 
 fn set<T>(target: &mut T, value: Option<T>) {
