@@ -33,7 +33,7 @@ pub enum Record {
         /// Unit/s.
         slope: f64,
     },
-    /// At `time` (s) a quantised state took its value; x goes on.
+    /// At `time` (s) a quantised state took its value; x goes on. Left out where another line has that instant.
     Step {
         /// The instant, s.
         time: f64,
@@ -88,11 +88,19 @@ impl Journal {
         Journal { entries: Vec::new(), wanted: true }
     }
 
-    /// Writes a line, if they are wanted.
+    /// Writes a line, if they are wanted. A [`Record::Step`] only says that something happens at an instant, so it is
+    /// kept only where no other line says so: a step that begins a segment would give the recorder two lines to read.
     #[inline]
     pub fn push(&mut self, record: Record) {
-        if self.wanted {
-            self.entries.push(record);
+        if !self.wanted {
+            return;
+        }
+        match (self.entries.last_mut(), record) {
+            (Some(last), Record::Step { time, .. }) if last.time() == time => {}
+            (Some(last @ Record::Step { .. }), Record::Segment { time, .. }) if last.time() == time => {
+                *last = record
+            }
+            _ => self.entries.push(record),
         }
     }
 
@@ -121,5 +129,41 @@ impl Journal {
     pub fn exchange(&mut self, mut empty: Vec<Record>) -> Vec<Record> {
         empty.clear();
         std::mem::replace(&mut self.entries, empty)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Journal, Record};
+    use crate::StateIndex;
+
+    #[test]
+    fn a_step_is_kept_only_where_no_other_line_has_its_instant() {
+        let step = |time, state| Record::Step { time, state: StateIndex(state) };
+        let segment = |time| Record::Segment { time, state: StateIndex(0), coefficients: [0.0; 4] };
+        let mut journal = Journal::wanted();
+        let lines = [
+            step(1.0, 0),
+            step(1.0, 1),
+            segment(1.0),
+            segment(1.0),
+            step(1.0, 2),
+            step(2.0, 0),
+            segment(3.0),
+        ];
+        for line in lines {
+            journal.push(line);
+        }
+        assert_eq!(journal.lines(), [segment(1.0), segment(1.0), step(2.0, 0), segment(3.0)]);
+    }
+
+    #[test]
+    fn the_right_limit_of_a_jump_is_marked_by_the_jump() {
+        let jump = Record::Jump { time: 1.0, step: 0 };
+        let mut journal = Journal::wanted();
+        journal.push(Record::Step { time: 1.0, state: StateIndex(0) });
+        journal.push(jump);
+        journal.push(Record::Step { time: 1.0, state: StateIndex(0) });
+        assert_eq!(journal.lines(), [Record::Step { time: 1.0, state: StateIndex(0) }, jump]);
     }
 }

@@ -7,8 +7,9 @@ use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, RecvError, SendError, Sender, channel};
 use std::thread::{Builder, Scope, ScopedJoinHandle};
 
-/// So many lines of the journal may wait to be made into rows; then the run waits for a slow sink.
-const MOST_WAITING: usize = 1 << 18;
+/// So many lines of the journal (3 MB) may wait to be made into rows; then the run waits for a slow sink. More of them
+/// leave the caches, and then cost the run itself.
+const MOST_WAITING: usize = 1 << 16;
 /// Room in a new block; what is not used costs nothing.
 const ROOM: usize = 1 << 15;
 
