@@ -46,17 +46,20 @@ impl Owned {
             .map(|(a, automaton)| {
                 let locations = 0..automaton.locations.len();
                 AutomatonCode {
-                    states: self.states.row(a).to_vec(),
-                    readers: readers.row(a).to_vec(),
-                    armed: locations.clone().map(|l| self.armed(gather, a, l)).collect(),
+                    states: self.states.row(a).into(),
+                    readers: readers.row(a).into(),
+                    armed: locations.clone().map(|l| self.armed(gather, a, l).into()).collect(),
                     row_of: locations.map(|l| self.right_hand_sides(gather.system, a, l)).collect(),
                 }
             })
             .collect()
     }
 
-    /// Which right-hand side each state has in a location.
-    fn right_hand_sides(&self, system: &System, automaton: usize, location: usize) -> Vec<u32> {
+    /// Which right-hand side each state has in a location; where there is no other, nobody asks.
+    fn right_hand_sides(&self, system: &System, automaton: usize, location: usize) -> Box<[u32]> {
+        if system.automata[automaton].locations.len() == 1 {
+            return Box::default();
+        }
         let row = |s: &StateIndex| system.states[s.position()].rate.by_location[location];
         self.states.row(automaton).iter().map(|s| row(s).position() as u32).collect()
     }

@@ -162,7 +162,8 @@ pub fn compile_sharing(
     // Room for reading a jet of any width at the last temporary.
     equations.layout.length = memory.end() + temporaries + 4;
     equations.image = image(system, &memory, &mut evaluator, &parameters, equations.layout.length);
-    let equations = Equations { programs, operands, blocks, calls, ..equations };
+    let mut equations = Equations { programs, operands, blocks, calls, ..equations };
+    equations.shrink_to_fit();
     Ok(Compiled { equations, logic, parameters })
 }
 

@@ -19,14 +19,17 @@ pub(crate) fn compile(
     let system = gather.system;
     let mut logic = Logic {
         receivers: system.events.iter().map(|e| e.receiver.automaton).collect(),
-        outgoing: system
-            .automata
-            .iter()
-            .map(|a| a.locations.iter().map(|l| l.transitions.clone()).collect())
-            .collect(),
         follows_flag: system.automata.iter().map(|a| a.role == Role::Flag).collect(),
         ..Logic::default()
     };
+    let mut locations = 0;
+    for automaton in &system.automata {
+        logic.first_location.push(locations);
+        locations += automaton.locations.len() as u32;
+        automaton.locations.iter().for_each(|location| logic.outgoing.push(&location.transitions));
+    }
+    logic.outgoing.shrink_to_fit();
+    logic.first_location.shrink_to_fit();
     let mut readers: Vec<(u32, AutomatonIndex)> = Vec::new();
     for transition in &system.transitions {
         let mut guard = Guard::default();

@@ -94,6 +94,11 @@ impl Journal {
         self.entries.push(record);
     }
 
+    /// Gives back what it took to grow.
+    pub fn shrink_to_fit(&mut self) {
+        self.entries.shrink_to_fit();
+    }
+
     /// Number of lines.
     #[inline]
     pub fn len(&self) -> usize {

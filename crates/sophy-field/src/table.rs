@@ -32,6 +32,12 @@ impl<T: Copy> Table<T> {
         Table { starts, items }
     }
 
+    /// Gives back what it took to grow.
+    pub fn shrink_to_fit(&mut self) {
+        self.starts.shrink_to_fit();
+        self.items.shrink_to_fit();
+    }
+
     /// Appends a row.
     pub fn push(&mut self, row: &[T]) {
         self.items.extend_from_slice(row);

@@ -129,7 +129,7 @@ impl Graph {
     }
 
     fn grow(&mut self) {
-        let length = (2 * self.known.len()).max(16);
+        let length = (4 * self.nodes.len()).next_power_of_two().max(16);
         let mut known = vec![0; length];
         for (position, node) in (1..).zip(&self.nodes) {
             let mut at = hash(node) & (length - 1);
@@ -139,6 +139,12 @@ impl Graph {
             known[at] = position;
         }
         self.known = known;
+    }
+
+    /// Gives back what only building takes; a node built later costs that once.
+    pub fn shrink_to_fit(&mut self) {
+        self.nodes.shrink_to_fit();
+        self.known = Vec::new();
     }
 
     /// The number of a node, if it is one.

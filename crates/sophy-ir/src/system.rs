@@ -468,6 +468,23 @@ impl Row {
 }
 
 impl System {
+    /// Gives back what only building takes.
+    pub fn shrink_to_fit(&mut self) {
+        self.graph.shrink_to_fit();
+        self.states.shrink_to_fit();
+        self.algebraics.shrink_to_fit();
+        self.outputs.shrink_to_fit();
+        self.automata.shrink_to_fit();
+        self.transitions.shrink_to_fit();
+        self.events.shrink_to_fit();
+        self.watches.shrink_to_fit();
+        self.truths.shrink_to_fit();
+        self.stairs.shrink_to_fit();
+        self.guarded.shrink_to_fit();
+        self.ranges.shrink_to_fit();
+        self.initial.shrink_to_fit();
+    }
+
     /// What a leaf is called in text forms and messages.
     pub fn leaf_name(&self, leaf: Leaf) -> String {
         let named = |name: Option<&String>| name.cloned().unwrap_or_else(|| "?".to_owned());
