@@ -57,12 +57,12 @@ impl<'a> Gather<'a> {
         let mut linearity = Linearity::default();
         for (z, algebraic) in system.algebraics.iter().enumerate() {
             let index = sophy_field::AlgebraicIndex::new(z);
-            linearity.algebraic(&system.graph, index, &algebraic.value);
+            linearity.algebraic(&system.graph, index, system.nodes(algebraic.value));
         }
         let (mut pairs, mut first_bend, mut bends) = (Vec::new(), Vec::new(), Vec::new());
         for (position, state) in system.states.iter().enumerate() {
             first_bend.push(bends.len() as u32);
-            for (location, &node) in (0..).zip(&state.rate.by_location) {
+            for (location, &node) in (0..).zip(system.nodes(state.rate)) {
                 let state = StateIndex::new(position);
                 let selection = Selection { owner: system.states[position].rate.owner, location, state };
                 let mut driven = false;
@@ -108,9 +108,12 @@ impl<'a> Gather<'a> {
     pub(crate) fn all_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
         let mut selected = Vec::new();
         for state in states {
-            let row = &self.system.states[state.position()].rate;
-            let locations = 0..row.by_location.len() as u32;
-            selected.extend(locations.map(|location| Selection { owner: row.owner, location, state }));
+            let row = self.system.states[state.position()].rate;
+            selected.extend((0..row.locations).map(|location| Selection {
+                owner: row.owner,
+                location,
+                state,
+            }));
         }
         self.entries_for(selected)
     }
@@ -149,7 +152,7 @@ impl<'a> Gather<'a> {
         }
         let entry = Entry { owner, first: self.blocks.len() as u32 };
         let mut rest = selected;
-        for location in 0..self.system.automata[owner.position()].locations.len() as u32 {
+        for location in 0..self.system.automata[owner.position()].kind.locations.len() as u32 {
             let (here, others) = rest.split_at(rest.partition_point(|s| s.location == location));
             rest = others;
             let nodes: Vec<NodeId> = here.iter().map(|s| rate(self.system, *s)).collect();
@@ -171,7 +174,7 @@ impl<'a> Gather<'a> {
 
     /// Whether the blocks of an entry hold exactly these rates.
     fn holds(&self, entry: Entry, selected: &[Selection]) -> bool {
-        let locations = self.system.automata[entry.owner.position()].locations.len() as u32;
+        let locations = self.system.automata[entry.owner.position()].kind.locations.len() as u32;
         let held = (0..locations).flat_map(|location| {
             let block = &self.blocks[(entry.first + location) as usize];
             let rows = &self.rows[block.rows.start as usize..block.rows.end as usize];
@@ -185,10 +188,10 @@ impl<'a> Gather<'a> {
         if let Some(known) = self.algebraics[0][z] {
             return known;
         }
-        let row = &self.system.algebraics[z].value;
+        let row = self.system.algebraics[z].value;
         let to = self.memory.algebraic(Side::Quantised, z);
         let entry = Entry { owner: row.owner, first: self.blocks.len() as u32 };
-        for &node in &row.by_location {
+        for &node in self.system.nodes(row) {
             let call = self.request(Side::Quantised, &[node], Some(to));
             let sources = sources(self.shapes.leaves(), self.memory.layout, &mut self.sources);
             self.blocks.push(Block { call, sources, rows: 0..0, bends: true });
@@ -203,10 +206,10 @@ impl<'a> Gather<'a> {
             return known;
         }
         let algebraic = &self.system.algebraics[z];
-        let row = if plain { &algebraic.plain } else { &algebraic.value };
+        let row = if plain { algebraic.plain } else { algebraic.value };
         let to = self.memory.algebraic(Side::Series, z);
         let entry = Entry { owner: row.owner, first: self.calls.len() as u32 };
-        for &node in &row.by_location {
+        for &node in self.system.nodes(row) {
             let call = self.request(Side::Series, &[node], Some(to));
             self.calls.push(call);
         }
@@ -236,9 +239,9 @@ impl<'a> Gather<'a> {
     }
 
     /// A formula per location, in a row.
-    pub(crate) fn selected(&mut self, row: &Row, plain: bool) -> Entry {
+    pub(crate) fn selected(&mut self, row: Row, plain: bool) -> Entry {
         let entry = Entry { owner: row.owner, first: self.formulas.len() as u32 };
-        for &node in &row.by_location {
+        for &node in self.system.nodes(row) {
             let formula = self.formula(node, plain);
             self.formulas.push(formula);
         }
@@ -252,5 +255,5 @@ impl<'a> Gather<'a> {
 }
 
 fn rate(system: &System, selection: Selection) -> NodeId {
-    system.states[selection.state.position()].rate.at(LocationIndex(selection.location))
+    system.at(system.states[selection.state.position()].rate, LocationIndex(selection.location))
 }

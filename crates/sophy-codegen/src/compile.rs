@@ -92,8 +92,8 @@ pub fn compile_sharing(
     let on_location = (0..system.automata.len()).map(|a| owned.entries(&mut gather, a)).collect();
     let watching = Watching::new(&mut gather);
     let on_watch = watching.decided().map(|decided| gather.influence(decided)).collect();
-    let rates = system.states.iter().map(|s| gather.selected(&s.rate, false)).collect();
-    let outputs = system.outputs.iter().map(|y| gather.selected(&y.value, true)).collect();
+    let rates = system.states.iter().map(|s| gather.selected(s.rate, false)).collect();
+    let outputs = system.outputs.iter().map(|y| gather.selected(y.value, true)).collect();
     let watches = watching.codes(&mut gather);
     let mut logic = logic::compile(&mut gather, &mut evaluator, &parameters)?;
     let automata = owned.automata(&mut gather, &watching);
