@@ -36,7 +36,9 @@ impl Owned {
         for &z in self.algebraics.row(automaton) {
             states.extend(gather.readers(Leaf::Algebraic(z)).iter().map(|reader| reader.state));
         }
-        gather.all_of(states)
+        // One that is entered at the start only needs no programs of its own for that.
+        let stays = gather.system.automata[automaton].kind.locations.iter().all(|l| l.transitions.is_empty());
+        if stays { gather.each_of(states) } else { gather.all_of(states) }
     }
 
     pub(crate) fn automata(&self, gather: &mut Gather<'_>, watching: &Watching) -> Vec<AutomatonCode> {

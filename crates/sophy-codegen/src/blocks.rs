@@ -40,6 +40,18 @@ pub(crate) struct Gather<'a> {
     readers: Table<Selection>,
 }
 
+/// What was gathered.
+pub(crate) struct Gathered {
+    pub(crate) memory: Memory,
+    pub(crate) shapes: Shapes,
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) calls: Vec<Call>,
+    pub(crate) formulas: Vec<Formula>,
+    pub(crate) sources: Vec<SourceIndex>,
+    pub(crate) rows: Vec<RowResult>,
+    pub(crate) entries: Vec<Entry>,
+}
+
 /// A rate in a location of its owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Selection {
@@ -93,6 +105,12 @@ impl<'a> Gather<'a> {
         }
     }
 
+    /// What becomes of it; all else is let go.
+    pub(crate) fn finish(self) -> Gathered {
+        let Gather { memory, shapes, blocks, calls, formulas, sources, rows, entries, .. } = self;
+        Gathered { memory, shapes: shapes.finish(), blocks, calls, formulas, sources, rows, entries }
+    }
+
     /// The rates that read a leaf, directly or through algebraic variables.
     pub(crate) fn readers(&self, leaf: Leaf) -> &[Selection] {
         self.incidence.number(leaf).map_or(&[], |number| self.readers.row(number))
@@ -101,11 +119,22 @@ impl<'a> Gather<'a> {
     /// The entries that evaluate, in every combination of locations, the rates that read one of `leaves`.
     pub(crate) fn influence(&mut self, leaves: &[Leaf]) -> Range<u32> {
         let selected = leaves.iter().flat_map(|&leaf| self.readers(leaf)).copied().collect();
-        self.entries_for(selected)
+        self.entries_for(selected, MOST_ROWS)
     }
 
     /// The entries that evaluate the rates of some states.
     pub(crate) fn all_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
+        let selected = self.rates_of(states);
+        self.entries_for(selected, MOST_ROWS)
+    }
+
+    /// The same, one state after the other.
+    pub(crate) fn each_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
+        let selected = self.rates_of(states);
+        self.entries_for(selected, 0)
+    }
+
+    fn rates_of(&self, states: impl IntoIterator<Item = StateIndex>) -> Vec<Selection> {
         let mut selected = Vec::new();
         for state in states {
             let row = self.system.states[state.position()].rate;
@@ -115,10 +144,11 @@ impl<'a> Gather<'a> {
                 state,
             }));
         }
-        self.entries_for(selected)
+        selected
     }
 
-    fn entries_for(&mut self, mut selected: Vec<Selection>) -> Range<u32> {
+    /// At most `most` rows of an automaton are evaluated together.
+    fn entries_for(&mut self, mut selected: Vec<Selection>, most: usize) -> Range<u32> {
         selected.sort_unstable();
         selected.dedup();
         let nodes = selected.iter().map(|s| rate(self.system, *s));
@@ -126,7 +156,7 @@ impl<'a> Gather<'a> {
         let mut entries: Vec<Entry> = needed.into_iter().map(|z| self.algebraic_block(z)).collect();
         for of_owner in selected.chunk_by_mut(|a, b| a.owner == b.owner) {
             let locations = of_owner.chunk_by(|a, b| a.location == b.location);
-            if locations.map(<[_]>::len).max() <= Some(MOST_ROWS) {
+            if locations.map(<[_]>::len).max() <= Some(most) {
                 entries.push(self.block(of_owner));
             } else {
                 of_owner.sort_unstable_by_key(|s| (s.state, s.location));

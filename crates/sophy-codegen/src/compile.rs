@@ -1,7 +1,7 @@
 //! The whole path from a flat system to callable equations.
 
 use crate::automata::Owned;
-use crate::blocks::Gather;
+use crate::blocks::{Gather, Gathered};
 use crate::interpreter::{enclose, run};
 use crate::logic;
 use crate::memory::Memory;
@@ -99,7 +99,8 @@ pub fn compile_sharing(
     let automata = owned.automata(&mut gather, &watching);
 
     // … and by which programs.
-    let Gather { mut memory, shapes, mut blocks, mut calls, formulas, sources, rows, entries, .. } = gather;
+    let Gathered { mut memory, shapes, mut blocks, mut calls, formulas, sources, rows, entries } =
+        gather.finish();
     let mut equations = Equations {
         layout: memory.layout,
         image: Vec::new(),
