@@ -51,9 +51,9 @@ struct Request {
 /// What is known of a shape.
 struct Shape {
     uses: u32,
-    /// The operands of its first use.
-    first: Range<usize>,
-    /// Per operand: whether it is not the same in all uses. What is the same belongs to the program.
+    /// Where the operands of its first use begin.
+    first: u32,
+    /// From the second use on, per operand: whether it is not the same in all. What is the same belongs to the program.
     varies: Box<[bool]>,
 }
 
@@ -115,14 +115,15 @@ impl Shapes {
     fn count(&mut self, shape: usize, first: usize, stored: bool) {
         let (before, operands) = self.operands.split_at(first);
         let Some(known) = self.shapes.get_mut(shape) else {
-            let varies = (1..=operands.len()).map(|behind| stored && behind == operands.len()).collect();
-            self.shapes.push(Shape { uses: 1, first: first..self.operands.len(), varies });
+            self.shapes.push(Shape { uses: 1, first: first as u32, varies: Box::default() });
             return;
         };
         known.uses += 1;
-        for ((varies, operand), other) in
-            known.varies.iter_mut().zip(operands).zip(&before[known.first.clone()])
-        {
+        if known.uses == 2 {
+            known.varies = (1..=operands.len()).map(|behind| stored && behind == operands.len()).collect();
+        }
+        let others = &before[known.first as usize..];
+        for ((varies, operand), other) in known.varies.iter_mut().zip(operands).zip(others) {
             *varies |= operand != other;
         }
     }
