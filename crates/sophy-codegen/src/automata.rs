@@ -2,7 +2,7 @@
 
 use crate::blocks::Gather;
 use crate::watches::Watching;
-use sophy_field::{AlgebraicIndex, AutomatonCode, StateIndex, Table};
+use sophy_field::{AlgebraicIndex, AutomatonCode, LocationIndex, StateIndex, Table};
 use sophy_ir::{Leaf, System};
 use std::ops::Range;
 
@@ -36,7 +36,9 @@ impl Owned {
         for &z in self.algebraics.row(automaton) {
             states.extend(gather.readers(Leaf::Algebraic(z)).iter().map(|reader| reader.state));
         }
-        gather.all_of(states)
+        // One that is entered at the start only needs no programs of its own for that.
+        let stays = gather.system.automata[automaton].kind.locations.iter().all(|l| l.transitions.is_empty());
+        if stays { gather.each_of(states) } else { gather.all_of(states) }
     }
 
     pub(crate) fn automata(&self, gather: &mut Gather<'_>, watching: &Watching) -> Vec<AutomatonCode> {
@@ -44,20 +46,23 @@ impl Owned {
         let readers = watching.of_automata();
         automata
             .map(|(a, automaton)| {
-                let locations = 0..automaton.locations.len();
+                let locations = 0..automaton.kind.locations.len();
                 AutomatonCode {
-                    states: self.states.row(a).to_vec(),
-                    readers: readers.row(a).to_vec(),
-                    armed: locations.clone().map(|l| self.armed(gather, a, l)).collect(),
+                    states: self.states.row(a).into(),
+                    readers: readers.row(a).into(),
+                    armed: locations.clone().map(|l| self.armed(gather, a, l).into()).collect(),
                     row_of: locations.map(|l| self.right_hand_sides(gather.system, a, l)).collect(),
                 }
             })
             .collect()
     }
 
-    /// Which right-hand side each state has in a location.
-    fn right_hand_sides(&self, system: &System, automaton: usize, location: usize) -> Vec<u32> {
-        let row = |s: &StateIndex| system.states[s.position()].rate.by_location[location];
+    /// Which right-hand side each state has in a location; where there is no other, nobody asks.
+    fn right_hand_sides(&self, system: &System, automaton: usize, location: usize) -> Box<[u32]> {
+        if system.automata[automaton].kind.locations.len() == 1 {
+            return Box::default();
+        }
+        let row = |s: &StateIndex| system.at(system.states[s.position()].rate, LocationIndex::new(location));
         self.states.row(automaton).iter().map(|s| row(s).position() as u32).collect()
     }
 
@@ -68,13 +73,13 @@ impl Owned {
         automaton: usize,
         location: usize,
     ) -> Vec<sophy_field::WatchIndex> {
-        let system = gather.system;
-        let states = self.states.row(automaton).iter().map(|s| &system.states[s.position()].rate);
+        let (system, location) = (gather.system, LocationIndex::new(location));
+        let states = self.states.row(automaton).iter().map(|s| system.states[s.position()].rate);
         let algebraics = self.algebraics.row(automaton).iter();
-        let algebraics = algebraics.map(|z| &system.algebraics[z.position()].value);
-        let guarded = self.guarded.row(automaton).iter().map(|&row| &system.guarded[row as usize]);
-        let rows = states.chain(algebraics).chain(guarded).map(|row| row.by_location[location]);
-        let outgoing = system.automata[automaton].locations[location].transitions.iter();
+        let algebraics = algebraics.map(|z| system.algebraics[z.position()].value);
+        let guarded = self.guarded.row(automaton).iter().map(|&row| system.guarded[row as usize]);
+        let rows = states.chain(algebraics).chain(guarded).map(|row| system.at(row, location));
+        let outgoing = system.automata[automaton].outgoing(location);
         let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
         gather.incidence.watches_below(rows.chain(guards))
     }

@@ -40,6 +40,18 @@ pub(crate) struct Gather<'a> {
     readers: Table<Selection>,
 }
 
+/// What was gathered.
+pub(crate) struct Gathered {
+    pub(crate) memory: Memory,
+    pub(crate) shapes: Shapes,
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) calls: Vec<Call>,
+    pub(crate) formulas: Vec<Formula>,
+    pub(crate) sources: Vec<SourceIndex>,
+    pub(crate) rows: Vec<RowResult>,
+    pub(crate) entries: Vec<Entry>,
+}
+
 /// A rate in a location of its owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Selection {
@@ -57,12 +69,12 @@ impl<'a> Gather<'a> {
         let mut linearity = Linearity::default();
         for (z, algebraic) in system.algebraics.iter().enumerate() {
             let index = sophy_field::AlgebraicIndex::new(z);
-            linearity.algebraic(&system.graph, index, &algebraic.value);
+            linearity.algebraic(&system.graph, index, system.nodes(algebraic.value));
         }
         let (mut pairs, mut first_bend, mut bends) = (Vec::new(), Vec::new(), Vec::new());
         for (position, state) in system.states.iter().enumerate() {
             first_bend.push(bends.len() as u32);
-            for (location, &node) in (0..).zip(&state.rate.by_location) {
+            for (location, &node) in (0..).zip(system.nodes(state.rate)) {
                 let state = StateIndex::new(position);
                 let selection = Selection { owner: system.states[position].rate.owner, location, state };
                 let mut driven = false;
@@ -93,6 +105,12 @@ impl<'a> Gather<'a> {
         }
     }
 
+    /// What becomes of it; all else is let go.
+    pub(crate) fn finish(self) -> Gathered {
+        let Gather { memory, shapes, blocks, calls, formulas, sources, rows, entries, .. } = self;
+        Gathered { memory, shapes: shapes.finish(), blocks, calls, formulas, sources, rows, entries }
+    }
+
     /// The rates that read a leaf, directly or through algebraic variables.
     pub(crate) fn readers(&self, leaf: Leaf) -> &[Selection] {
         self.incidence.number(leaf).map_or(&[], |number| self.readers.row(number))
@@ -101,21 +119,36 @@ impl<'a> Gather<'a> {
     /// The entries that evaluate, in every combination of locations, the rates that read one of `leaves`.
     pub(crate) fn influence(&mut self, leaves: &[Leaf]) -> Range<u32> {
         let selected = leaves.iter().flat_map(|&leaf| self.readers(leaf)).copied().collect();
-        self.entries_for(selected)
+        self.entries_for(selected, MOST_ROWS)
     }
 
     /// The entries that evaluate the rates of some states.
     pub(crate) fn all_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
-        let mut selected = Vec::new();
-        for state in states {
-            let row = &self.system.states[state.position()].rate;
-            let locations = 0..row.by_location.len() as u32;
-            selected.extend(locations.map(|location| Selection { owner: row.owner, location, state }));
-        }
-        self.entries_for(selected)
+        let selected = self.rates_of(states);
+        self.entries_for(selected, MOST_ROWS)
     }
 
-    fn entries_for(&mut self, mut selected: Vec<Selection>) -> Range<u32> {
+    /// The same, one state after the other.
+    pub(crate) fn each_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
+        let selected = self.rates_of(states);
+        self.entries_for(selected, 0)
+    }
+
+    fn rates_of(&self, states: impl IntoIterator<Item = StateIndex>) -> Vec<Selection> {
+        let mut selected = Vec::new();
+        for state in states {
+            let row = self.system.states[state.position()].rate;
+            selected.extend((0..row.locations).map(|location| Selection {
+                owner: row.owner,
+                location,
+                state,
+            }));
+        }
+        selected
+    }
+
+    /// At most `most` rows of an automaton are evaluated together.
+    fn entries_for(&mut self, mut selected: Vec<Selection>, most: usize) -> Range<u32> {
         selected.sort_unstable();
         selected.dedup();
         let nodes = selected.iter().map(|s| rate(self.system, *s));
@@ -123,7 +156,7 @@ impl<'a> Gather<'a> {
         let mut entries: Vec<Entry> = needed.into_iter().map(|z| self.algebraic_block(z)).collect();
         for of_owner in selected.chunk_by_mut(|a, b| a.owner == b.owner) {
             let locations = of_owner.chunk_by(|a, b| a.location == b.location);
-            if locations.map(<[_]>::len).max() <= Some(MOST_ROWS) {
+            if locations.map(<[_]>::len).max() <= Some(most) {
                 entries.push(self.block(of_owner));
             } else {
                 of_owner.sort_unstable_by_key(|s| (s.state, s.location));
@@ -149,7 +182,7 @@ impl<'a> Gather<'a> {
         }
         let entry = Entry { owner, first: self.blocks.len() as u32 };
         let mut rest = selected;
-        for location in 0..self.system.automata[owner.position()].locations.len() as u32 {
+        for location in 0..self.system.automata[owner.position()].kind.locations.len() as u32 {
             let (here, others) = rest.split_at(rest.partition_point(|s| s.location == location));
             rest = others;
             let nodes: Vec<NodeId> = here.iter().map(|s| rate(self.system, *s)).collect();
@@ -171,7 +204,7 @@ impl<'a> Gather<'a> {
 
     /// Whether the blocks of an entry hold exactly these rates.
     fn holds(&self, entry: Entry, selected: &[Selection]) -> bool {
-        let locations = self.system.automata[entry.owner.position()].locations.len() as u32;
+        let locations = self.system.automata[entry.owner.position()].kind.locations.len() as u32;
         let held = (0..locations).flat_map(|location| {
             let block = &self.blocks[(entry.first + location) as usize];
             let rows = &self.rows[block.rows.start as usize..block.rows.end as usize];
@@ -185,10 +218,10 @@ impl<'a> Gather<'a> {
         if let Some(known) = self.algebraics[0][z] {
             return known;
         }
-        let row = &self.system.algebraics[z].value;
+        let row = self.system.algebraics[z].value;
         let to = self.memory.algebraic(Side::Quantised, z);
         let entry = Entry { owner: row.owner, first: self.blocks.len() as u32 };
-        for &node in &row.by_location {
+        for &node in self.system.nodes(row) {
             let call = self.request(Side::Quantised, &[node], Some(to));
             let sources = sources(self.shapes.leaves(), self.memory.layout, &mut self.sources);
             self.blocks.push(Block { call, sources, rows: 0..0, bends: true });
@@ -203,10 +236,10 @@ impl<'a> Gather<'a> {
             return known;
         }
         let algebraic = &self.system.algebraics[z];
-        let row = if plain { &algebraic.plain } else { &algebraic.value };
+        let row = if plain { algebraic.plain } else { algebraic.value };
         let to = self.memory.algebraic(Side::Series, z);
         let entry = Entry { owner: row.owner, first: self.calls.len() as u32 };
-        for &node in &row.by_location {
+        for &node in self.system.nodes(row) {
             let call = self.request(Side::Series, &[node], Some(to));
             self.calls.push(call);
         }
@@ -236,9 +269,9 @@ impl<'a> Gather<'a> {
     }
 
     /// A formula per location, in a row.
-    pub(crate) fn selected(&mut self, row: &Row, plain: bool) -> Entry {
+    pub(crate) fn selected(&mut self, row: Row, plain: bool) -> Entry {
         let entry = Entry { owner: row.owner, first: self.formulas.len() as u32 };
-        for &node in &row.by_location {
+        for &node in self.system.nodes(row) {
             let formula = self.formula(node, plain);
             self.formulas.push(formula);
         }
@@ -252,5 +285,5 @@ impl<'a> Gather<'a> {
 }
 
 fn rate(system: &System, selection: Selection) -> NodeId {
-    system.states[selection.state.position()].rate.at(LocationIndex(selection.location))
+    system.at(system.states[selection.state.position()].rate, LocationIndex(selection.location))
 }

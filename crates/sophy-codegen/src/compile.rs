@@ -1,7 +1,7 @@
 //! The whole path from a flat system to callable equations.
 
 use crate::automata::Owned;
-use crate::blocks::Gather;
+use crate::blocks::{Gather, Gathered};
 use crate::interpreter::{enclose, run};
 use crate::logic;
 use crate::memory::Memory;
@@ -92,14 +92,15 @@ pub fn compile_sharing(
     let on_location = (0..system.automata.len()).map(|a| owned.entries(&mut gather, a)).collect();
     let watching = Watching::new(&mut gather);
     let on_watch = watching.decided().map(|decided| gather.influence(decided)).collect();
-    let rates = system.states.iter().map(|s| gather.selected(&s.rate, false)).collect();
-    let outputs = system.outputs.iter().map(|y| gather.selected(&y.value, true)).collect();
+    let rates = system.states.iter().map(|s| gather.selected(s.rate, false)).collect();
+    let outputs = system.outputs.iter().map(|y| gather.selected(y.value, true)).collect();
     let watches = watching.codes(&mut gather);
     let mut logic = logic::compile(&mut gather, &mut evaluator, &parameters)?;
     let automata = owned.automata(&mut gather, &watching);
 
     // … and by which programs.
-    let Gather { mut memory, shapes, mut blocks, mut calls, formulas, sources, rows, entries, .. } = gather;
+    let Gathered { mut memory, shapes, mut blocks, mut calls, formulas, sources, rows, entries } =
+        gather.finish();
     let mut equations = Equations {
         layout: memory.layout,
         image: Vec::new(),
@@ -162,7 +163,8 @@ pub fn compile_sharing(
     // Room for reading a jet of any width at the last temporary.
     equations.layout.length = memory.end() + temporaries + 4;
     equations.image = image(system, &memory, &mut evaluator, &parameters, equations.layout.length);
-    let equations = Equations { programs, operands, blocks, calls, ..equations };
+    let mut equations = Equations { programs, operands, blocks, calls, ..equations };
+    equations.shrink_to_fit();
     Ok(Compiled { equations, logic, parameters })
 }
 

@@ -31,11 +31,11 @@ impl<'a> Incidence<'a> {
         incidence.seen = vec![0; incidence.leaves()];
         for algebraic in &system.algebraics {
             incidence.begin();
-            incidence.direct(algebraic.value.by_location.iter().copied());
-            incidence.smooth.push(&incidence.found);
+            incidence.direct(system.nodes(algebraic.value).iter().copied());
+            incidence.smooth.push(incidence.found.iter().copied());
             incidence.begin();
-            incidence.direct(algebraic.plain.by_location.iter().copied());
-            incidence.plain.push(&incidence.found);
+            incidence.direct(system.nodes(algebraic.plain).iter().copied());
+            incidence.plain.push(incidence.found.iter().copied());
         }
         incidence
     }

@@ -4,7 +4,7 @@ use crate::blocks::Gather;
 use crate::compile::{CompileError, parameter_leaf};
 use crate::watches::signs_of;
 use sophy_field::{
-    AutomatonIndex, EmissionCode, Guard, GuardStep, Logic, Table, TransitionCode, TriggerCode,
+    AutomatonIndex, EmissionCode, Guard, GuardStep, LocationIndex, Logic, Table, TransitionCode, TriggerCode,
 };
 use sophy_ir::{Evaluator, FlatTrigger, Leaf, Node, NodeId, Role};
 
@@ -19,14 +19,18 @@ pub(crate) fn compile(
     let system = gather.system;
     let mut logic = Logic {
         receivers: system.events.iter().map(|e| e.receiver.automaton).collect(),
-        outgoing: system
-            .automata
-            .iter()
-            .map(|a| a.locations.iter().map(|l| l.transitions.clone()).collect())
-            .collect(),
-        follows_flag: system.automata.iter().map(|a| a.role == Role::Flag).collect(),
+        follows_flag: system.automata.iter().map(|a| a.kind.role == Role::Flag).collect(),
         ..Logic::default()
     };
+    let mut locations = 0;
+    for automaton in &system.automata {
+        logic.first_location.push(locations);
+        let count = automaton.kind.locations.len();
+        locations += count as u32;
+        (0..count).for_each(|l| logic.outgoing.push(automaton.outgoing(LocationIndex::new(l))));
+    }
+    logic.outgoing.shrink_to_fit();
+    logic.first_location.shrink_to_fit();
     let mut readers: Vec<(u32, AutomatonIndex)> = Vec::new();
     for transition in &system.transitions {
         let mut guard = Guard::default();

@@ -36,26 +36,35 @@ impl Sharing {
 pub(crate) struct RequestIndex(pub(crate) u32);
 
 /// Values to be computed together, by one call.
+#[derive(Clone, Copy)]
 struct Request {
     /// Its shape; `TRIVIAL` if everything stands somewhere already.
     shape: u32,
     side: Side,
-    roots: Range<u32>,
-    operands: Range<u32>,
-    /// Where the value is to be stored, or `NOWHERE`.
-    to: u32,
+    /// Whether the value is to be stored; its last operand is where.
+    stored: bool,
+    /// Its first root, and its first operand; they end where those of the next request begin.
+    first_root: u32,
+    first_operand: u32,
+}
+
+/// What is known of a shape.
+struct Shape {
+    uses: u32,
+    /// Where the operands of its first use begin.
+    first: u32,
+    /// From the second use on, per operand: whether it is not the same in all. What is the same belongs to the program.
+    varies: Box<[bool]>,
 }
 
 const TRIVIAL: u32 = u32::MAX;
-const NOWHERE: u32 = u32::MAX;
 
 /// All requests, by shape.
 #[derive(Default)]
 pub(crate) struct Shapes {
     reader: Reader,
     known: FxHashMap<Box<[u32]>, u32>,
-    /// Per shape.
-    uses: Vec<u32>,
+    shapes: Vec<Shape>,
     requests: Vec<Request>,
     roots: Vec<NodeId>,
     operands: Vec<u32>,
@@ -80,13 +89,11 @@ impl Shapes {
             shape = match self.known.get(self.reader.key.as_slice()) {
                 Some(&known) => known,
                 None => {
-                    let fresh = self.uses.len() as u32;
+                    let fresh = self.shapes.len() as u32;
                     self.known.insert(self.reader.key.as_slice().into(), fresh);
-                    self.uses.push(0);
                     fresh
                 }
             };
-            self.uses[shape as usize] += 1;
         }
         // Also what becomes no operand gets its place now: temporaries begin behind all of them.
         for &literal in &self.reader.literals {
@@ -97,14 +104,45 @@ impl Shapes {
             self.operands.extend(place.filter(|_| shape != TRIVIAL));
         }
         self.operands.extend(to);
-        self.requests.push(Request {
-            shape,
-            side,
-            roots: first_root..self.roots.len() as u32,
-            operands: first_operand..self.operands.len() as u32,
-            to: to.unwrap_or(NOWHERE),
-        });
+        if shape != TRIVIAL {
+            self.count(shape as usize, first_operand as usize, to.is_some());
+        }
+        self.requests.push(Request { shape, side, stored: to.is_some(), first_root, first_operand });
         RequestIndex(self.requests.len() as u32 - 1)
+    }
+
+    /// Counts a use of a shape, whose operands are those from `first` on; the last is where it is `stored`.
+    fn count(&mut self, shape: usize, first: usize, stored: bool) {
+        let (before, operands) = self.operands.split_at(first);
+        let Some(known) = self.shapes.get_mut(shape) else {
+            self.shapes.push(Shape { uses: 1, first: first as u32, varies: Box::default() });
+            return;
+        };
+        known.uses += 1;
+        if known.uses == 2 {
+            known.varies = (1..=operands.len()).map(|behind| stored && behind == operands.len()).collect();
+        }
+        let others = &before[known.first as usize..];
+        for ((varies, operand), other) in known.varies.iter_mut().zip(operands).zip(others) {
+            *varies |= operand != other;
+        }
+    }
+
+    /// A request with its roots and operands.
+    fn of(&self, RequestIndex(index): RequestIndex) -> (Request, Range<usize>, Range<usize>) {
+        let (request, next) = (self.requests[index as usize], self.requests.get(index as usize + 1));
+        let roots = next.map_or(self.roots.len(), |next| next.first_root as usize);
+        let operands = next.map_or(self.operands.len(), |next| next.first_operand as usize);
+        (request, request.first_root as usize..roots, request.first_operand as usize..operands)
+    }
+
+    /// All requests were made: they are read once more, and none is looked for.
+    pub(crate) fn finish(mut self) -> Self {
+        self.known = FxHashMap::default();
+        self.requests.shrink_to_fit();
+        self.roots.shrink_to_fit();
+        self.operands.shrink_to_fit();
+        self
     }
 
     /// The leaves, other than parameters, that the last request reads, each once.
@@ -287,7 +325,7 @@ impl<'a> Emitter<'a> {
     pub(crate) fn new(system: &'a System, memory: &'a mut Memory, shapes: Shapes, sharing: Sharing) -> Self {
         Emitter {
             compiler: Compiler::new(system, memory.layout.width, memory.end()),
-            shared: vec![None; shapes.uses.len()],
+            shared: vec![None; shapes.shapes.len()],
             made: Programs { programs: vec![Program::default()], ..Programs::default() },
             least_uses: sharing.least_uses(),
             system,
@@ -298,8 +336,8 @@ impl<'a> Emitter<'a> {
 
     /// The call that answers a request; where its values stand is appended to `results`.
     pub(crate) fn call(&mut self, request: RequestIndex, results: &mut Vec<Operand>) -> Call {
-        let request = &self.shapes.requests[request.0 as usize];
-        let roots = &self.shapes.roots[request.roots.start as usize..request.roots.end as usize];
+        let (request, roots, operands) = self.shapes.of(request);
+        let (roots, operands) = (&self.shapes.roots[roots], &self.shapes.operands[operands]);
         if request.shape == TRIVIAL {
             let (system, side) = (self.system, request.side);
             results.extend(roots.iter().filter_map(|&root| match self.memory.place(system, side, root)? {
@@ -309,29 +347,31 @@ impl<'a> Emitter<'a> {
             }));
             return Call::default();
         }
-        if self.shapes.uses[request.shape as usize] < self.least_uses {
-            let to = (request.to != NOWHERE).then_some(request.to);
+        let shape = &self.shapes.shapes[request.shape as usize];
+        if shape.uses < self.least_uses {
+            let to = operands.last().copied().filter(|_| request.stored);
             self.compiler.begin(0);
             results.extend(self.compiler.compile(self.memory, request.side, roots, to));
             let program = self.made.add(self.compiler.finish());
             return Call { program, operands: 0..0 };
         }
         let first = self.made.operands.len() as u32;
-        let operands = request.operands.start as usize..request.operands.end as usize;
-        self.made.operands.extend_from_slice(&self.shapes.operands[operands.clone()]);
+        let varying = operands.iter().zip(&shape.varies).filter(|(_, varies)| **varies);
+        self.made.operands.extend(varying.map(|(operand, _)| operand));
         let (program, places) = match &mut self.shared[request.shape as usize] {
             Some(known) => known,
             missing => {
-                let stored = request.to != NOWHERE;
-                self.compiler.begin(operands.len() as u32);
-                self.shapes.reader.read(self.system, self.memory, request.side, roots, stored);
-                for (number, &operand) in (0..).zip(&self.shapes.reader.operands) {
+                let count = self.made.operands.len() as u32 - first;
+                self.compiler.begin(count);
+                self.shapes.reader.read(self.system, self.memory, request.side, roots, request.stored);
+                let varying = self.shapes.reader.operands.iter().zip(&shape.varies);
+                for (number, (&operand, _)) in (0..).zip(varying.filter(|(_, varies)| **varies)) {
                     if let Some(place) = self.memory.place(self.system, request.side, operand) {
                         self.compiler.gathered(operand, number, place);
                     }
                 }
-                let places = if stored {
-                    self.compiler.compile_stored(self.memory, request.side, roots, operands.len() as u32 - 1)
+                let places = if request.stored {
+                    self.compiler.compile_stored(self.memory, request.side, roots, count - 1)
                 } else {
                     self.compiler.compile(self.memory, request.side, roots, None)
                 };

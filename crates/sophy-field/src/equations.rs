@@ -119,13 +119,14 @@ pub struct Entry {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AutomatonCode {
     /// States whose rates it selects.
-    pub states: Vec<StateIndex>,
+    pub states: Box<[StateIndex]>,
     /// Watches that read an algebraic variable of this automaton: what they watch jumps with its location.
-    pub readers: Vec<WatchIndex>,
+    pub readers: Box<[WatchIndex]>,
     /// Per location: watches armed there, in the order of watches.
-    pub armed: Vec<Vec<WatchIndex>>,
-    /// Per location, for each of `states`: which right-hand side it has; equal numbers mean equal ones.
-    pub row_of: Vec<Vec<u32>>,
+    pub armed: Box<[Box<[WatchIndex]>]>,
+    /// Per location, for each of `states`: which right-hand side it has; equal numbers mean equal ones. Nothing where
+    /// there is one location only.
+    pub row_of: Box<[Box<[u32]>]>,
 }
 
 /// The code of a watch.
@@ -203,6 +204,18 @@ pub struct Formula {
 }
 
 impl Equations {
+    /// Gives back what tables took to grow.
+    pub fn shrink_to_fit(&mut self) {
+        self.programs.shrink_to_fit();
+        self.operands.shrink_to_fit();
+        self.calls.shrink_to_fit();
+        self.blocks.shrink_to_fit();
+        self.sources.shrink_to_fit();
+        self.rows.shrink_to_fit();
+        self.entries.shrink_to_fit();
+        self.formulas.shrink_to_fit();
+    }
+
     /// Runs a program on its operands.
     #[inline]
     #[allow(unsafe_code)]

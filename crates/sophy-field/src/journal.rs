@@ -104,6 +104,11 @@ impl Journal {
         }
     }
 
+    /// Gives back what it took to grow.
+    pub fn shrink_to_fit(&mut self) {
+        self.entries.shrink_to_fit();
+    }
+
     /// Number of lines.
     #[inline]
     pub fn len(&self) -> usize {

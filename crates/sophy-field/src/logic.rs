@@ -8,14 +8,24 @@ use sophy_segment::Sign;
 pub struct Logic {
     /// All transitions, in written order.
     pub transitions: Vec<TransitionCode>,
-    /// Per automaton, per location: its outgoing transitions by priority, then in written order.
-    pub outgoing: Vec<Vec<Vec<TransitionIndex>>>,
+    /// Per location, those of one automaton in a row: its outgoing transitions by priority, then in written order.
+    pub outgoing: Table<TransitionIndex>,
+    /// Per automaton: its first location in `outgoing`.
+    pub first_location: Vec<u32>,
     /// Per event: the automaton that receives it.
     pub receivers: Vec<AutomatonIndex>,
     /// Per watch: the automata whose guards read it.
     pub automata_of_watch: Table<AutomatonIndex>,
     /// Per automaton: whether its two locations are the sides of a flag, which it follows.
     pub follows_flag: Vec<bool>,
+}
+
+impl Logic {
+    /// The transitions out of a location, by priority, then in written order.
+    #[inline]
+    pub fn outgoing(&self, automaton: AutomatonIndex, location: LocationIndex) -> &[TransitionIndex] {
+        self.outgoing.row(self.first_location[automaton.position()] as usize + location.position())
+    }
 }
 
 /// A transition τ = (q₁, q₂, j, r, e_in, e_out), thesis definition 8.5.
@@ -37,6 +47,13 @@ pub struct TransitionCode {
     pub priority: i32,
     /// Whether it only keeps the side of a flag: no event, no micro-step.
     pub silent: bool,
+}
+
+impl TransitionCode {
+    /// Whether anything is evaluated when it is taken.
+    pub fn evaluates(&self) -> bool {
+        !self.resets.is_empty() || self.emits.iter().any(|emission| emission.when.is_some())
+    }
 }
 
 /// What is emitted.

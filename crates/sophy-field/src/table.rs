@@ -32,9 +32,15 @@ impl<T: Copy> Table<T> {
         Table { starts, items }
     }
 
+    /// Gives back what it took to grow.
+    pub fn shrink_to_fit(&mut self) {
+        self.starts.shrink_to_fit();
+        self.items.shrink_to_fit();
+    }
+
     /// Appends a row.
-    pub fn push(&mut self, row: &[T]) {
-        self.items.extend_from_slice(row);
+    pub fn push(&mut self, row: impl IntoIterator<Item = T>) {
+        self.items.extend(row);
         self.starts.push(self.items.len() as u32);
     }
 }
@@ -56,7 +62,7 @@ mod tests {
         let table = Table::from_pairs(4, &[(2, 'a'), (0, 'b'), (2, 'c'), (3, 'd'), (2, 'e')]);
         let mut pushed = Table::default();
         for row in [&['b'][..], &[], &['a', 'c', 'e'], &['d']] {
-            pushed.push(row);
+            pushed.push(row.iter().copied());
         }
         assert_eq!(table, pushed);
         assert_eq!((table.row(1), table.row(2)), (&[][..], &['a', 'c', 'e'][..]));

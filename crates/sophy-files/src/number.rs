@@ -1,7 +1,8 @@
 /// Appends the shortest decimal that reads back as exactly `value`: at most 17 significant digits, with an
 /// exponent where plain digits would be long. NaN and infinities are `NaN`, `inf`, `-inf`.
 pub(crate) fn push_number(text: &mut String, value: f64) {
-    // Nearly all cells of a result; the same digits as those of the standard library, in a fraction of the time.
+    // Nearly all cells of a result, in a fraction of the time that the standard library takes for digits that are as few
+    // and, but for the last one where two are as near, the same.
     if COMMON.contains(&value.abs()) {
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value);
@@ -64,13 +65,15 @@ mod tests {
         }
 
         #[test]
-        fn common_numbers_are_written_as_rare_ones_are(mantissa in -1.0f64..1.0, exponent in -20i32..60, digits in 0u32..17) {
+        fn common_numbers_are_written_as_short_as_rare_ones(mantissa in -1.0f64..1.0, exponent in -20i32..60, digits in 0u32..17) {
             let long = mantissa * libm::exp2(f64::from(exponent));
             let tens = libm::pow(10.0, f64::from(digits));
             for value in [long, libm::round(mantissa * tens) / 1e3, libm::round(mantissa * tens)] {
                 let mut rare = String::new();
                 push_rare(&mut rare, value);
-                prop_assert_eq!(text(value), rare);
+                let common = text(value);
+                prop_assert_eq!(common.len(), rare.len());
+                prop_assert_eq!(common.parse(), Ok(value));
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
     AutomatonIndex, Changes, Engine, Equations, EventIndex, Formula, Guard, Journal, LocationIndex, Logic,
-    NOW, Record, StateIndex, TransitionIndex, TriggerCode, WatchIndex,
+    NOW, Record, StateIndex, TransitionCode, TransitionIndex, TriggerCode, WatchIndex,
 };
 use std::collections::VecDeque;
 
@@ -44,13 +44,14 @@ pub struct Counts {
 /// automaton goes back without an event.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Events waiting, per automaton, and the automata for which some wait.
+    /// Events waiting, per automaton (of none where nobody receives events), and the automata for which some wait.
     queues: Vec<VecDeque<EventIndex>>,
     waiting: Worklist,
     /// Automata whose guards must be looked at.
     stale: Worklist,
+    /// Per automaton; of none where there are no transitions.
     zeno: Vec<Zeno>,
-    /// Memory for resets.
+    /// Memory for resets and for conditions of events, if there are any.
     memory: Vec<f64>,
     /// Watches that changed, transitions of a micro-step, and what they change; kept for their memory.
     changed: Vec<WatchIndex>,
@@ -66,13 +67,15 @@ pub struct Control {
 impl Control {
     /// The control of a system at its start: every guard will be looked at.
     pub fn new(equations: &Equations, logic: &Logic) -> Self {
-        let automata = logic.outgoing.len();
+        let automata = logic.first_location.len();
+        let of_all = |needed: bool| if needed { automata } else { 0 };
+        let evaluates = logic.transitions.iter().any(TransitionCode::evaluates);
         Control {
-            queues: vec![VecDeque::new(); automata],
+            queues: vec![VecDeque::new(); of_all(!logic.receivers.is_empty())],
             waiting: Worklist::empty(automata),
             stale: Worklist::full(automata),
-            zeno: vec![Zeno::default(); automata],
-            memory: equations.image.clone(),
+            zeno: vec![Zeno::default(); of_all(!logic.transitions.is_empty())],
+            memory: if evaluates { equations.image.clone() } else { Vec::new() },
             changed: Vec::new(),
             chosen: Vec::new(),
             emitted: Vec::new(),
@@ -269,8 +272,8 @@ impl Control {
         let (mut least, mut answers, mut unheard) = (i32::MAX, Vec::new(), Vec::new());
         self.waiting.retain(|automaton| {
             let Some(&event) = queues[automaton.position()].front() else { return false };
-            let location = engine.locations()[automaton.position()].position();
-            let outgoing = logic.outgoing[automaton.position()][location].iter().copied();
+            let location = engine.locations()[automaton.position()];
+            let outgoing = logic.outgoing(automaton, location).iter().copied();
             let mut listening =
                 outgoing.filter_map(|transition| match &logic.transitions[transition.position()].trigger {
                     TriggerCode::On(events, guard) if events.contains(&event) => Some((transition, guard)),
@@ -358,7 +361,7 @@ fn enabled(
     automaton: AutomatonIndex,
     location: LocationIndex,
 ) -> Option<TransitionIndex> {
-    let outgoing = &logic.outgoing[automaton.position()][location.position()];
+    let outgoing = logic.outgoing(automaton, location);
     outgoing.iter().copied().find(|transition| match &logic.transitions[transition.position()].trigger {
         TriggerCode::When(guard) => guard.holds(|watch| engine.sign(watch)),
         TriggerCode::On(..) => false,

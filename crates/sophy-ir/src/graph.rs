@@ -6,16 +6,23 @@ use sophy_field::{
     AlgebraicIndex, ColumnIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex,
 };
 use std::hash::BuildHasher;
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 /// A node of a [`Graph`]. Equal expressions of one graph have equal ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct NodeId(u32);
+pub struct NodeId(NonZeroU32);
 
 impl NodeId {
+    /// The node at a position. One more is kept, so that `Option<NodeId>` is no longer than a position.
+    fn new(position: usize) -> Self {
+        let next = u32::try_from(position).unwrap_or(u32::MAX).saturating_add(1);
+        NodeId(NonZeroU32::new(next).unwrap_or(NonZeroU32::MAX))
+    }
+
     /// Position in the graph; operands come before what uses them.
     pub fn position(self) -> usize {
-        self.0 as usize
+        self.0.get() as usize - 1
     }
 }
 
@@ -102,7 +109,7 @@ impl Graph {
 
     /// All nodes, operands before users.
     pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
-        (0..u32::try_from(self.nodes.len()).unwrap_or(u32::MAX)).map(NodeId)
+        (0..self.nodes.len()).map(NodeId::new)
     }
 
     /// Whether nothing was built yet.
@@ -118,18 +125,18 @@ impl Graph {
         let mut at = hash(&node) & mask;
         while let Some(position) = self.known[at].checked_sub(1) {
             if self.nodes[position as usize] == node {
-                return NodeId(position);
+                return NodeId::new(position as usize);
             }
             at = (at + 1) & mask;
         }
-        let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        let id = NodeId::new(self.nodes.len());
         self.nodes.push(node);
-        self.known[at] = id.0.saturating_add(1);
+        self.known[at] = id.0.get();
         id
     }
 
     fn grow(&mut self) {
-        let length = (2 * self.known.len()).max(16);
+        let length = (4 * self.nodes.len()).next_power_of_two().max(16);
         let mut known = vec![0; length];
         for (position, node) in (1..).zip(&self.nodes) {
             let mut at = hash(node) & (length - 1);
@@ -139,6 +146,12 @@ impl Graph {
             known[at] = position;
         }
         self.known = known;
+    }
+
+    /// Gives back what only building takes; a node built later costs that once.
+    pub fn shrink_to_fit(&mut self) {
+        self.nodes.shrink_to_fit();
+        self.known = Vec::new();
     }
 
     /// The number of a node, if it is one.

@@ -22,6 +22,7 @@ mod import;
 mod linearity;
 mod model;
 mod model_text;
+mod names;
 mod pieces;
 mod system;
 mod system_text;
@@ -41,9 +42,10 @@ pub use graph::{Graph, Leaf, Node, NodeId};
 pub use import::Importer;
 pub use linearity::Linearity;
 pub use model::{Interpolation, Model, Quantity, Table};
+pub use names::{ComponentIndex, Components, Members};
 pub use pieces::Pieces;
 pub use system::{
-    Algebraic, Automaton, Awaited, Event, EventInput, Feature, FlatEmission, FlatLocation, FlatReset,
-    FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Range, Ranged, Receiver, Role, Row, Stair,
-    State, System, Truth, VerifyError, Watch,
+    Algebraic, Automaton, AutomatonKind, Awaited, Declared, Event, EventInput, Feature, FlatEmission,
+    FlatLocation, FlatReset, FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Range, Ranged,
+    Receiver, Role, Row, Stair, State, System, Truth, VerifyError, Watch,
 };

@@ -1,7 +1,6 @@
 use crate::arithmetic::{Binary, Unary};
 use crate::dependencies::Reach;
 use crate::graph::{Graph, Leaf, Node, NodeId};
-use crate::system::Row;
 use sophy_field::AlgebraicIndex;
 
 /// Whether expressions of a system are affine in states, inputs and time, found once per node.
@@ -26,8 +25,8 @@ enum Degree {
 
 impl Linearity {
     /// Tells of an algebraic variable; in the order of their table, which is that of evaluation.
-    pub fn algebraic(&mut self, graph: &Graph, index: AlgebraicIndex, row: &Row) {
-        let affine = row.by_location.iter().all(|&node| self.is_affine(graph, node));
+    pub fn algebraic(&mut self, graph: &Graph, index: AlgebraicIndex, nodes: &[NodeId]) {
+        let affine = nodes.iter().all(|&node| self.is_affine(graph, node));
         if self.algebraics.len() <= index.position() {
             self.algebraics.resize(index.position() + 1, false);
         }
@@ -81,7 +80,7 @@ fn degree(graph: &Graph, id: NodeId, known: &[Option<Degree>], algebraics: &[boo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sophy_field::{AutomatonIndex, ParameterIndex, StateIndex, TruthIndex};
+    use sophy_field::{ParameterIndex, StateIndex, TruthIndex};
 
     #[test]
     fn it_decides_as_affine_forms_do() {
@@ -105,11 +104,10 @@ mod tests {
                 }
             }
         }
-        let row = |node| Row { owner: AutomatonIndex(0), by_location: vec![node], spans: vec![None] };
         let variable = |leaf: Leaf| matches!(leaf, Leaf::State(_) | Leaf::Algebraic(_));
         let mut linearity = Linearity::default();
         let sum = g.add(x, y);
-        linearity.algebraic(&g, AlgebraicIndex(0), &row(sum));
+        linearity.algebraic(&g, AlgebraicIndex(0), &[sum]);
         for &node in &nodes {
             let decided = linearity.is_affine(&g, node);
             assert_eq!(decided, g.affine(node, &variable).is_some(), "{node:?}");
@@ -117,7 +115,7 @@ mod tests {
         // Through an algebraic variable that is not affine nothing is.
         let product = g.multiply(x, y);
         let mut linearity = Linearity::default();
-        linearity.algebraic(&g, AlgebraicIndex(0), &row(product));
+        linearity.algebraic(&g, AlgebraicIndex(0), &[product]);
         let sum = g.add(x, z);
         assert!(!linearity.is_affine(&g, sum));
     }

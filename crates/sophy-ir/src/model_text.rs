@@ -360,23 +360,28 @@ impl Class {
 impl crate::Member {
     /// Name of a copy within the composite, counted from 0, row by row: `cell[17]`, `grid[2,3]`.
     pub fn copy_name(&self, copy: u32) -> String {
-        if !self.element.is_empty() {
-            return format!("{}{}", self.name, bracketed(&self.element));
-        }
-        let (mut rest, mut indices) = (copy, Vec::with_capacity(self.extents.len()));
-        for &extent in self.extents.iter().rev() {
-            let extent = extent.max(1);
-            indices.push(rest % extent + 1);
-            rest /= extent;
-        }
-        indices.reverse();
-        format!("{}{}", self.name, bracketed(&indices))
+        copy_name(&self.name, &self.extents, &self.element, copy)
     }
 
     /// Number of copies.
     pub fn copies(&self) -> u32 {
         self.extents.iter().product()
     }
+}
+
+/// See [`crate::Member::copy_name`].
+pub(crate) fn copy_name(name: &str, extents: &[u32], element: &[u32], copy: u32) -> String {
+    if !element.is_empty() {
+        return format!("{name}{}", bracketed(element));
+    }
+    let (mut rest, mut indices) = (copy, Vec::with_capacity(extents.len()));
+    for &extent in extents.iter().rev() {
+        let extent = extent.max(1);
+        indices.push(rest % extent + 1);
+        rest /= extent;
+    }
+    indices.reverse();
+    format!("{name}{}", bracketed(&indices))
 }
 
 fn end(composite: &Composite, member: Option<u32>, copy: u32) -> String {

@@ -2,12 +2,14 @@ use crate::arithmetic::Comparison;
 use crate::class::{Allowed, ClassIndex, VariableId};
 use crate::graph::{Graph, Leaf, Node, NodeId};
 use crate::model::Quantity;
+use crate::names::{ComponentIndex, Components};
 use sophy_diagnostics::Span;
 use sophy_field::{
     AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StairIndex,
     StateIndex, TransitionIndex, WatchIndex,
 };
 use std::fmt;
+use std::sync::Arc;
 
 /// One flat hybrid system, ready to be made callable. Automata stay side by side; locations are never
 /// multiplied into a product.
@@ -19,8 +21,14 @@ use std::fmt;
 pub struct System {
     /// Name of the model.
     pub name: String,
+    /// What it consists of, for names.
+    pub components: Components,
     /// All expressions.
     pub graph: Graph,
+    /// The expressions of all rows, those of one in a row.
+    pub rows: Vec<NodeId>,
+    /// Where they stand; copies share what was written.
+    pub spans: Vec<Option<Span>>,
     /// Constants and knobs.
     pub parameters: Vec<Parameter>,
     /// Inputs from outside.
@@ -80,10 +88,10 @@ pub enum Ranged {
     State(StateIndex),
     /// An input, an output or a local.
     Value {
-        /// Its name.
-        name: String,
-        /// Its unit as written.
-        unit: Option<String>,
+        /// Its component.
+        component: ComponentIndex,
+        /// What was declared.
+        declared: Arc<Declared>,
         /// Its value, switches as written.
         value: Row,
     },
@@ -184,6 +192,23 @@ pub struct Origin {
     pub variable: VariableId,
 }
 
+/// What was declared of a quantity, once for all its copies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declared {
+    /// Name within its component.
+    pub name: String,
+    /// Unit as written.
+    pub unit: Option<String>,
+    /// Kind of its values.
+    pub quantity: Quantity,
+    /// Texts it can have, where they were declared; empty if any.
+    pub choices: Vec<usize>,
+    /// Its declaration.
+    pub origin: Origin,
+    /// Where it is declared.
+    pub span: Option<Span>,
+}
+
 /// A constant or knob.
 #[derive(Clone, Debug)]
 pub struct Parameter {
@@ -206,59 +231,50 @@ pub struct Parameter {
 /// An input from outside.
 #[derive(Clone, Debug)]
 pub struct Input {
-    /// Full name.
-    pub name: String,
-    /// Unit as written.
-    pub unit: Option<String>,
-    /// Kind of its values.
-    pub quantity: Quantity,
-    /// Its declaration.
-    pub origin: Origin,
-    /// Where it is declared.
-    pub span: Option<Span>,
+    /// Its component.
+    pub component: ComponentIndex,
+    /// What was declared.
+    pub declared: Arc<Declared>,
 }
 
 /// A state: continuous, or one that changes at instants only (its rate is 0 everywhere).
 #[derive(Clone, Debug)]
 pub struct State {
-    /// Full name.
-    pub name: String,
-    /// Unit as written.
-    pub unit: Option<String>,
-    /// Kind of its values.
-    pub quantity: Quantity,
+    /// Its component.
+    pub component: ComponentIndex,
+    /// What was declared.
+    pub declared: Arc<Declared>,
     /// Whether it changes at instants only: a mode, or what a discrete-time component keeps.
     pub discrete: bool,
-    /// Texts it can have, where they were declared; empty if any.
-    pub choices: Vec<usize>,
     /// Initial value over parameters; `None` when the experiment must give it.
     pub initial: Option<NodeId>,
     /// For a mode that nothing initialises: the flag whose sign (−1 or +1) it starts with.
     pub sign_of: Option<NodeId>,
     /// Its time derivative.
     pub rate: Row,
-    /// Its declaration.
-    pub origin: Origin,
-    /// Where it is declared.
-    pub span: Option<Span>,
 }
 
-/// A right-hand side: the same everywhere, or chosen by the location of one automaton.
-#[derive(Clone, Debug, PartialEq)]
+/// A right-hand side: the same everywhere, or chosen by the location of one automaton. Its expressions, one per location
+/// of `owner`, are [`System::nodes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
     /// The automaton whose location selects the row.
     pub owner: AutomatonIndex,
-    /// One expression per location of `owner`.
-    pub by_location: Vec<NodeId>,
-    /// Where each stands.
-    pub spans: Vec<Option<Span>>,
+    /// In [`System::rows`]: its first expression.
+    pub first: u32,
+    /// How many there are.
+    pub locations: u32,
+    /// In [`System::spans`]: where the first expression stands; [`Row::NOWHERE`] if it was not written.
+    pub spans: u32,
 }
 
 /// A quantity defined by other quantities at the same instant.
 #[derive(Clone, Debug)]
 pub struct Algebraic {
-    /// Full name.
-    pub name: String,
+    /// Its component.
+    pub component: ComponentIndex,
+    /// What was declared.
+    pub declared: Arc<Declared>,
     /// Its value, smooth: read by rates and guards.
     pub value: Row,
     /// Its value with switches as written: read by outputs and resets.
@@ -268,20 +284,14 @@ pub struct Algebraic {
 /// An output.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// Full name.
-    pub name: String,
-    /// Unit as written.
-    pub unit: Option<String>,
-    /// Kind of its values.
-    pub quantity: Quantity,
-    /// Texts it can have, where they were declared; empty if any.
-    pub choices: Vec<usize>,
+    /// Its component.
+    pub component: ComponentIndex,
+    /// What was declared.
+    pub declared: Arc<Declared>,
     /// Whether it is only to be looked at: no output of the interface.
     pub view: bool,
     /// Its value.
     pub value: Row,
-    /// Its declaration.
-    pub origin: Origin,
 }
 
 /// What an automaton stands for.
@@ -299,8 +309,17 @@ pub enum Role {
 /// A hybrid automaton.
 #[derive(Clone, Debug)]
 pub struct Automaton {
-    /// Name of the component; empty in a model of one nameless component.
-    pub name: String,
+    /// Its component.
+    pub component: ComponentIndex,
+    /// What it has in common with its copies.
+    pub kind: Arc<AutomatonKind>,
+    /// Its first transition; its others follow.
+    pub first: TransitionIndex,
+}
+
+/// An automaton, whatever the copy.
+#[derive(Clone, Debug)]
+pub struct AutomatonKind {
     /// What it stands for; only components show their location.
     pub role: Role,
     /// Its locations.
@@ -314,8 +333,17 @@ pub struct Automaton {
 pub struct FlatLocation {
     /// Name.
     pub name: String,
-    /// Outgoing transitions, by priority, then in written order.
-    pub transitions: Vec<TransitionIndex>,
+    /// Outgoing transitions, by priority, then in written order, counted from the first of the automaton.
+    pub transitions: Vec<u32>,
+}
+
+impl Automaton {
+    /// The transitions out of a location, by priority, then in written order.
+    pub fn outgoing(&self, location: LocationIndex) -> impl Iterator<Item = TransitionIndex> {
+        let location = self.kind.locations.get(location.position());
+        let transitions = location.into_iter().flat_map(|location| &location.transitions);
+        transitions.map(|&transition| TransitionIndex(self.first.0 + transition))
+    }
 }
 
 /// When a transition is taken.
@@ -456,28 +484,72 @@ impl fmt::Display for VerifyError {
 impl std::error::Error for VerifyError {}
 
 impl Row {
-    /// The expression in a location of the owner.
-    pub fn at(&self, location: LocationIndex) -> NodeId {
-        self.by_location[location.position()]
-    }
+    /// Among [`System::spans`].
+    pub const NOWHERE: u32 = u32::MAX;
 
-    /// Whether the location does not matter.
-    pub fn is_constant(&self) -> bool {
-        self.by_location.windows(2).all(|pair| pair[0] == pair[1])
+    /// Its expressions, in [`System::rows`].
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.locations) as usize
     }
 }
 
 impl System {
+    /// A row of these expressions.
+    pub fn row(&mut self, owner: AutomatonIndex, nodes: &[NodeId], spans: u32) -> Row {
+        let (first, locations) = (self.rows.len() as u32, nodes.len() as u32);
+        self.rows.extend_from_slice(nodes);
+        Row { owner, first, locations, spans }
+    }
+
+    /// The expressions of a row, one per location of its owner.
+    pub fn nodes(&self, row: Row) -> &[NodeId] {
+        self.rows.get(row.range()).unwrap_or_default()
+    }
+
+    /// The expression of a row in a location of its owner.
+    pub fn at(&self, row: Row, location: LocationIndex) -> NodeId {
+        self.nodes(row)[location.position()]
+    }
+
+    /// Where that stands.
+    pub fn span(&self, row: Row, location: LocationIndex) -> Option<Span> {
+        *self.spans.get(row.spans as usize + location.position())?
+    }
+
+    /// Whether the location does not matter to a row.
+    pub fn is_constant(&self, row: Row) -> bool {
+        self.nodes(row).windows(2).all(|pair| pair[0] == pair[1])
+    }
+
+    /// Gives back what only building takes.
+    pub fn shrink_to_fit(&mut self) {
+        self.graph.shrink_to_fit();
+        self.rows.shrink_to_fit();
+        self.spans.shrink_to_fit();
+        self.states.shrink_to_fit();
+        self.algebraics.shrink_to_fit();
+        self.outputs.shrink_to_fit();
+        self.automata.shrink_to_fit();
+        self.transitions.shrink_to_fit();
+        self.events.shrink_to_fit();
+        self.watches.shrink_to_fit();
+        self.truths.shrink_to_fit();
+        self.stairs.shrink_to_fit();
+        self.guarded.shrink_to_fit();
+        self.ranges.shrink_to_fit();
+        self.initial.shrink_to_fit();
+    }
+
     /// What a leaf is called in text forms and messages.
     pub fn leaf_name(&self, leaf: Leaf) -> String {
-        let named = |name: Option<&String>| name.cloned().unwrap_or_else(|| "?".to_owned());
+        let named = |name: Option<String>| name.unwrap_or_else(|| "?".to_owned());
         match leaf {
             Leaf::Variable(id) => format!("v{}", id.0),
-            Leaf::Special(i) => named(self.awaits.get(i as usize).map(|awaited| &awaited.text)),
-            Leaf::Parameter(i) => named(self.parameters.get(i.position()).map(|p| &p.name)),
-            Leaf::State(i) => named(self.states.get(i.position()).map(|s| &s.name)),
-            Leaf::Input(i) => named(self.inputs.get(i.position()).map(|u| &u.name)),
-            Leaf::Algebraic(i) => named(self.algebraics.get(i.position()).map(|z| &z.name)),
+            Leaf::Special(i) => named(self.awaits.get(i as usize).map(|awaited| awaited.text.clone())),
+            Leaf::Parameter(i) => named(self.parameters.get(i.position()).map(|p| p.name.clone())),
+            Leaf::State(i) => named(self.states.get(i.position()).map(|s| s.name(self))),
+            Leaf::Input(i) => named(self.inputs.get(i.position()).map(|u| u.name(self))),
+            Leaf::Algebraic(i) => named(self.algebraics.get(i.position()).map(|z| z.name(self))),
             Leaf::Time => "time".to_owned(),
             Leaf::Truth(i) => match self.truths.get(i.position()) {
                 Some(truth) => {
@@ -505,15 +577,15 @@ impl System {
     /// Every rate row depends on which states and inputs: the thesis's coupling matrix D (§3.2.2), rows in
     /// the order of states, `true` where a location exists in which the entry is not zero.
     pub fn coupling(&self) -> Vec<Vec<Leaf>> {
-        self.states.iter().map(|state| self.row_sources(&state.rate)).collect()
+        self.states.iter().map(|state| self.row_sources(state.rate)).collect()
     }
 
     /// States, inputs and time that a row reads, through algebraic variables and switches.
-    pub fn row_sources(&self, row: &Row) -> Vec<Leaf> {
+    pub fn row_sources(&self, row: Row) -> Vec<Leaf> {
         let mut found = std::collections::BTreeSet::new();
         let mut visited = std::collections::BTreeSet::new();
         let mut pending: Vec<Leaf> =
-            self.graph.dependencies(row.by_location.iter().copied()).into_iter().collect();
+            self.graph.dependencies(self.nodes(row).iter().copied()).into_iter().collect();
         while let Some(leaf) = pending.pop() {
             if !visited.insert(leaf) {
                 continue;
@@ -523,8 +595,8 @@ impl System {
                     found.insert(leaf);
                 }
                 Leaf::Algebraic(z) => {
-                    let row = &self.algebraics[z.position()].value;
-                    pending.extend(self.graph.dependencies(row.by_location.iter().copied()));
+                    let row = self.algebraics[z.position()].value;
+                    pending.extend(self.graph.dependencies(self.nodes(row).iter().copied()));
                 }
                 _ => {}
             }
@@ -541,24 +613,25 @@ impl System {
         let rows = self
             .states
             .iter()
-            .map(|s| (&s.name, &s.rate))
-            .chain(self.algebraics.iter().map(|z| (&z.name, &z.value)))
-            .chain(self.outputs.iter().map(|y| (&y.name, &y.value)))
+            .map(|s| (&s.declared.name, &s.rate))
+            .chain(self.algebraics.iter().map(|z| (&z.declared.name, &z.value)))
+            .chain(self.outputs.iter().map(|y| (&y.declared.name, &y.value)))
             .chain(self.guarded.iter().map(|row| (&self.name, row)));
         for (name, row) in rows {
             let Some(owner) = self.automata.get(row.owner.position()) else {
                 return fail(format!("row of `{name}` has no owner"));
             };
-            if row.by_location.len() != owner.locations.len() || row.spans.len() != owner.locations.len() {
+            let locations = owner.kind.locations.len();
+            if row.locations as usize != locations || self.nodes(*row).len() != locations {
                 return fail(format!("row of `{name}` does not have one expression per location"));
             }
         }
         let smooth = self
             .states
             .iter()
-            .flat_map(|s| &s.rate.by_location)
-            .chain(self.algebraics.iter().flat_map(|z| &z.value.by_location))
-            .chain(self.guarded.iter().flat_map(|row| &row.by_location))
+            .flat_map(|s| self.nodes(s.rate))
+            .chain(self.algebraics.iter().flat_map(|z| self.nodes(z.value)))
+            .chain(self.guarded.iter().flat_map(|row| self.nodes(*row)))
             .chain(self.watches.iter().map(|w| &w.difference));
         for id in self.graph.reachable_switches(smooth.copied()) {
             match self.graph.node(id) {
@@ -584,7 +657,7 @@ impl System {
                 return fail(format!("transition {index} has no automaton"));
             };
             for end in [transition.source, transition.destination] {
-                if end.position() >= automaton.locations.len() {
+                if end.position() >= automaton.kind.locations.len() {
                     return fail(format!("transition `{}` has no such location", transition.name));
                 }
             }
@@ -600,16 +673,16 @@ impl System {
         if let Some(reset) = resets.into_iter().find(|r| r.state.position() >= self.states.len()) {
             return fail(format!("{} is assigned and does not exist", reset.state));
         }
-        for automaton in self.automata.iter().filter(|automaton| automaton.role == Role::Flag) {
-            if automaton.locations.len() != 2 || automaton.locations.iter().any(|l| l.transitions.len() != 1)
-            {
-                return fail(format!("a flag of `{}` does not have two sides", automaton.name));
+        for automaton in self.automata.iter().filter(|automaton| automaton.kind.role == Role::Flag) {
+            let locations = &automaton.kind.locations;
+            if locations.len() != 2 || locations.iter().any(|l| l.transitions.len() != 1) {
+                return fail(format!("a flag of `{}` does not have two sides", automaton.name(self)));
             }
         }
         for state in self.states.iter().filter(|state| state.discrete) {
             let rests = |&node: &NodeId| self.graph.as_number(node) == Some(0.0);
-            if !state.rate.by_location.iter().all(rests) {
-                return fail(format!("`{}` changes at instants only and has a rate", state.name));
+            if !self.nodes(state.rate).iter().all(rests) {
+                return fail(format!("`{}` changes at instants only and has a rate", state.name(self)));
             }
         }
         Ok(())
@@ -637,7 +710,7 @@ impl System {
 
     /// The index of a name, for experiments.
     pub fn state_named(&self, name: &str) -> Option<StateIndex> {
-        self.states.iter().position(|s| s.name == name).map(StateIndex::new)
+        self.states.iter().position(|s| s.name(self) == name).map(StateIndex::new)
     }
 
     /// The index of a name, for experiments.
@@ -647,6 +720,6 @@ impl System {
 
     /// The index of a name, for experiments.
     pub fn input_named(&self, name: &str) -> Option<InputIndex> {
-        self.inputs.iter().position(|u| u.name == name).map(InputIndex::new)
+        self.inputs.iter().position(|u| u.name(self) == name).map(InputIndex::new)
     }
 }

@@ -1,8 +1,8 @@
 //! The text form of a system: everything with names, in the order of the tables (`--emit system`).
 
 use crate::model::Quantity;
-use crate::system::{FlatReset, FlatTransition, FlatTrigger, Role, Row, System};
-use sophy_field::EventIndex;
+use crate::system::{Declared, FlatReset, FlatTransition, FlatTrigger, Role, Row, System};
+use sophy_field::{EventIndex, LocationIndex};
 use std::fmt;
 
 impl fmt::Display for System {
@@ -12,17 +12,18 @@ impl fmt::Display for System {
             writeln!(f, "  parameter {} = {}{}", p.name, self.text(p.value), unit(p.unit.as_ref()))?;
         }
         for u in &self.inputs {
-            writeln!(f, "  input {}{}{}", u.name, quantity(u.quantity), unit(u.unit.as_ref()))?;
+            writeln!(f, "  input {}{}", u.name(self), kind(&u.declared))?;
         }
         self.write_states(f)?;
         for z in &self.algebraics {
-            writeln!(f, "  algebraic {}", z.name)?;
-            self.write_row(f, &z.name, &z.value)?;
+            let name = z.name(self);
+            writeln!(f, "  algebraic {name}")?;
+            self.write_row(f, &name, z.value)?;
         }
         for y in &self.outputs {
-            let kind = if y.view { "view" } else { "output" };
-            writeln!(f, "  {kind} {}{}{}", y.name, quantity(y.quantity), unit(y.unit.as_ref()))?;
-            self.write_row(f, &y.name, &y.value)?;
+            let (what, name) = (if y.view { "view" } else { "output" }, y.name(self));
+            writeln!(f, "  {what} {name}{}", kind(&y.declared))?;
+            self.write_row(f, &name, y.value)?;
         }
         for assignment in &self.initial {
             self.write_assignment(f, 2, "initial ", assignment)?;
@@ -47,27 +48,32 @@ impl System {
             if let Some(flag) = s.sign_of {
                 initial = format!(" := side of {}", self.text(flag));
             }
-            let texts: Vec<String> =
-                s.choices.iter().filter_map(|&n| Some(format!("{n} {:?}", self.texts.get(n)?))).collect();
+            let texts: Vec<String> = s
+                .declared
+                .choices
+                .iter()
+                .filter_map(|&n| Some(format!("{n} {:?}", self.texts.get(n)?)))
+                .collect();
             let choices = if texts.is_empty() { String::new() } else { format!(" {{{}}}", texts.join(", ")) };
-            let (quantity, unit) = (quantity(s.quantity), unit(s.unit.as_ref()));
-            writeln!(f, "  {kind} x{index} {}{quantity}{choices}{initial}{unit}", s.name)?;
+            let (quantity, unit) = (quantity(s.declared.quantity), unit(s.declared.unit.as_ref()));
+            let name = s.name(self);
+            writeln!(f, "  {kind} x{index} {name}{quantity}{choices}{initial}{unit}")?;
             if !s.discrete {
-                self.write_row(f, &format!("der({})", s.name), &s.rate)?;
+                self.write_row(f, &format!("der({name})"), s.rate)?;
             }
         }
         Ok(())
     }
 
-    fn write_row(&self, f: &mut fmt::Formatter<'_>, left: &str, row: &Row) -> fmt::Result {
-        if row.is_constant() {
-            return match row.by_location.first() {
+    fn write_row(&self, f: &mut fmt::Formatter<'_>, left: &str, row: Row) -> fmt::Result {
+        if self.is_constant(row) {
+            return match self.nodes(row).first() {
                 Some(&node) => writeln!(f, "    {left} = {}", self.text(node)),
                 None => Ok(()),
             };
         }
         let Some(owner) = self.automata.get(row.owner.position()) else { return Ok(()) };
-        for (location, &node) in owner.locations.iter().zip(&row.by_location) {
+        for (location, &node) in owner.kind.locations.iter().zip(self.nodes(row)) {
             writeln!(f, "    {}: {left} = {}", location.name, self.text(node))?;
         }
         Ok(())
@@ -75,22 +81,22 @@ impl System {
 
     fn write_automata(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, a) in self.automata.iter().enumerate() {
-            let role = match a.role {
+            let role = match a.kind.role {
                 Role::Component => "",
                 Role::Flag => " (sides of a flag)",
                 Role::Owner => " (no locations)",
             };
-            writeln!(f, "  automaton a{index} {}{role}", a.name)?;
-            for (position, location) in a.locations.iter().enumerate() {
-                let initial = match a.role {
-                    Role::Component if a.initial.position() == position => " (initial)",
+            writeln!(f, "  automaton a{index} {}{role}", a.name(self))?;
+            for (position, location) in a.kind.locations.iter().enumerate() {
+                let initial = match a.kind.role {
+                    Role::Component if a.kind.initial.position() == position => " (initial)",
                     Role::Owner => continue,
                     _ => "",
                 };
                 writeln!(f, "    location {}{initial}", location.name)?;
-                for t in &location.transitions {
+                for t in a.outgoing(LocationIndex::new(position)) {
                     let Some(t) = self.transitions.get(t.position()) else { continue };
-                    let to = a.locations.get(t.destination.position()).map_or("?", |l| l.name.as_str());
+                    let to = a.kind.locations.get(t.destination.position()).map_or("?", |l| l.name.as_str());
                     self.write_transition(f, t, to)?;
                 }
             }
@@ -119,7 +125,7 @@ impl System {
         what: &str,
         reset: &FlatReset,
     ) -> fmt::Result {
-        let state = self.states.get(reset.state.position()).map_or("?", |state| state.name.as_str());
+        let state = self.states.get(reset.state.position()).map_or("?".to_owned(), |state| state.name(self));
         writeln!(f, "{:indent$}{what}{state} := {}", "", self.text(reset.value))
     }
 
@@ -142,6 +148,10 @@ impl System {
 
 fn unit(unit: Option<&String>) -> String {
     unit.map(|u| format!(" \"{u}\"")).unwrap_or_default()
+}
+
+fn kind(declared: &Declared) -> String {
+    format!("{}{}", quantity(declared.quantity), unit(declared.unit.as_ref()))
 }
 
 fn quantity(quantity: Quantity) -> &'static str {

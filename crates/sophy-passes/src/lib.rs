@@ -1,6 +1,6 @@
 //! `Model` → flat `System`, one file per pass.
 //!
-//! [`lower`] flattens, runs the [`PIPELINE`] (at present: lift the kinks) and verifies what came out.
+//! [`lower`] flattens, runs the [`PIPELINE`] (lift the kinks, give back memory) and verifies what came out.
 
 mod flatten;
 mod lift;

@@ -53,15 +53,13 @@ struct Lifted {
 impl Lifter<'_> {
     fn system(&mut self) {
         for z in 0..self.system.algebraics.len() {
-            let row = std::mem::take(&mut self.system.algebraics[z].value.by_location);
-            let row = self.row(row);
-            let value = &mut self.system.algebraics[z].value;
-            value.by_location = row;
-            self.linearity.algebraic(&self.system.graph, AlgebraicIndex::new(z), value);
+            let row = self.system.algebraics[z].value;
+            self.row(row);
+            let nodes = self.system.nodes(row);
+            self.linearity.algebraic(&self.system.graph, AlgebraicIndex::new(z), nodes);
         }
         for x in 0..self.system.states.len() {
-            let row = std::mem::take(&mut self.system.states[x].rate.by_location);
-            self.system.states[x].rate.by_location = self.row(row);
+            self.row(self.system.states[x].rate);
         }
         for t in 0..self.system.transitions.len() {
             self.system.transitions[t].trigger = match self.system.transitions[t].trigger.clone() {
@@ -82,14 +80,13 @@ impl Lifter<'_> {
             let Range { of, allowed: Allowed::Between(bounds), .. } = &self.system.ranges[k] else {
                 continue;
             };
-            let mut row = match of {
+            let (row, mut nodes) = match of {
                 Ranged::State(state) if !self.system.states[state.position()].discrete => {
                     let leaf = self.system.graph.leaf(Leaf::State(*state));
-                    let mut row = self.system.states[state.position()].rate.clone();
-                    row.by_location.fill(leaf);
-                    row
+                    let row = self.system.states[state.position()].rate;
+                    (row, vec![leaf; row.locations as usize])
                 }
-                Ranged::Value { value, .. } => value.clone(),
+                Ranged::Value { value, .. } => (*value, self.system.nodes(*value).to_vec()),
                 Ranged::State(_) | Ranged::Parameter(_) => continue,
             };
             // Copies of a component share their bounds, and so the code that watches them.
@@ -98,7 +95,7 @@ impl Lifter<'_> {
                 self.system.graph.column(Column { name, numbers: vec![f64::MIN, f64::INFINITY] })
             });
             let mut stairs = Vec::new();
-            for node in &mut row.by_location {
+            for node in &mut nodes {
                 let value = self.lift(*node);
                 *node = self.stair(value, Some(column));
                 if let Node::Leaf(Leaf::Stair(stair)) = self.system.graph.node(*node) {
@@ -107,7 +104,7 @@ impl Lifter<'_> {
             }
             stairs.dedup();
             self.system.ranges[k].stairs = stairs;
-            self.system.guarded.push(row);
+            self.guard(row, &nodes);
         }
     }
 
@@ -116,10 +113,10 @@ impl Lifter<'_> {
         if self.system.graph.columns().is_empty() {
             return;
         }
-        let rows: Vec<Row> = self.system.outputs.iter().map(|y| y.value.clone()).collect();
-        for mut row in rows {
-            let mut any = false;
-            for node in &mut row.by_location {
+        for y in 0..self.system.outputs.len() {
+            let row = self.system.outputs[y].value;
+            let (mut nodes, mut any) = (self.system.nodes(row).to_vec(), false);
+            for node in &mut nodes {
                 let below = self.system.graph.reachable([*node]);
                 *node = self.system.graph.number(0.0);
                 for id in below {
@@ -134,9 +131,15 @@ impl Lifter<'_> {
                 }
             }
             if any {
-                self.system.guarded.push(row);
+                self.guard(row, &nodes);
             }
         }
+    }
+
+    /// Has expressions watched that stand where those of a row stand.
+    fn guard(&mut self, row: Row, nodes: &[NodeId]) {
+        let row = self.system.row(row.owner, nodes, row.spans);
+        self.system.guarded.push(row);
     }
 
     /// The stair of a table if there is one, else one with the ends of its range only.
@@ -158,11 +161,10 @@ impl Lifter<'_> {
         self.stair(at, Some(ends))
     }
 
-    fn row(&mut self, mut row: Vec<NodeId>) -> Vec<NodeId> {
-        for node in &mut row {
-            *node = self.lift(*node);
+    fn row(&mut self, row: Row) {
+        for at in row.range() {
+            self.system.rows[at] = self.lift(self.system.rows[at]);
         }
-        row
     }
 
     fn lift(&mut self, root: NodeId) -> NodeId {

@@ -12,7 +12,8 @@ pub struct Pass {
 }
 
 /// What happens to a flat system, in this order.
-pub const PIPELINE: &[Pass] = &[Pass { name: "lift-kinks", run: lift_kinks }];
+pub const PIPELINE: &[Pass] =
+    &[Pass { name: "lift-kinks", run: lift_kinks }, Pass { name: "shrink", run: System::shrink_to_fit }];
 
 /// A model could not be made into a system.
 #[derive(Clone, Debug, PartialEq)]

@@ -63,7 +63,7 @@ pub(crate) fn chosen<'a>(
             }
         }
         if !any {
-            errors.push(unknown("record", "variable", pattern, &names(available, |c| &c.name)));
+            errors.push(unknown("record", "variable", pattern, &names(available, |c| c.name.clone())));
         }
     }
     if errors.is_empty() { Ok(columns) } else { Err(errors) }
@@ -80,49 +80,43 @@ impl Available {
 }
 
 /// Outputs, then states and inputs that are not outputs of the same name, then locations.
-pub(crate) fn available<'a>(system: &'a System, states: u32) -> Vec<Available> {
+pub(crate) fn available(system: &System, states: u32) -> Vec<Available> {
     let mut columns: Vec<Available> = Vec::new();
-    let mut taken: FxHashSet<&str> = FxHashSet::default();
-    let mut add = |name: &'a str, unit: &Option<String>, (kind, shown), by_default: bool, is_state: bool| {
-        if taken.insert(name) {
-            columns.push(Available {
-                name: name.to_owned(),
-                unit: unit.clone(),
-                kind,
-                shown,
-                by_default,
-                is_state,
-            });
+    let mut taken: FxHashSet<String> = FxHashSet::default();
+    let mut add = |name: String, unit: &Option<String>, (kind, shown), by_default: bool, is_state: bool| {
+        if taken.insert(name.clone()) {
+            columns.push(Available { name, unit: unit.clone(), kind, shown, by_default, is_state });
         }
     };
     let shown = |quantity: Quantity, value: Real| shown(quantity, value, &system.texts);
     for (index, y) in system.outputs.iter().enumerate() {
-        add(&y.name, &y.unit, shown(y.quantity, Real::Output(index)), true, false);
+        add(y.name(system), &y.declared.unit, shown(y.declared.quantity, Real::Output(index)), true, false);
     }
     for (index, x) in system.states.iter().enumerate() {
         let source = Real::Source(SourceIndex(index as u32));
-        add(&x.name, &x.unit, shown(x.quantity, source), false, true);
+        add(x.name(system), &x.declared.unit, shown(x.declared.quantity, source), false, true);
     }
     for (index, u) in system.inputs.iter().enumerate() {
         let source = Real::Source(SourceIndex(states + index as u32));
-        add(&u.name, &u.unit, shown(u.quantity, source), false, false);
+        add(u.name(system), &u.declared.unit, shown(u.declared.quantity, source), false, false);
     }
     for (index, automaton) in system.automata.iter().enumerate() {
         // A component that was written without locations has one without a name.
-        let written = automaton.locations.iter().any(|location| !location.name.is_empty());
-        if automaton.role != sophy_ir::Role::Component || !written {
+        let kind = &automaton.kind;
+        let written = kind.locations.iter().any(|location| !location.name.is_empty());
+        if kind.role != sophy_ir::Role::Component || !written {
             continue;
         }
-        let name = match automaton.name.as_str() {
+        let name = match automaton.name(system).as_str() {
             "" => "location".to_owned(),
             component => format!("{component}.location"),
         };
         columns.push(Available {
             name,
             unit: None,
-            kind: ColumnKind::Label(automaton.locations.iter().map(|l| l.name.clone()).collect()),
+            kind: ColumnKind::Label(kind.locations.iter().map(|l| l.name.clone()).collect()),
             shown: Shown::Label(Label::Location(index)),
-            by_default: automaton.locations.len() > 1,
+            by_default: kind.locations.len() > 1,
             is_state: false,
         });
     }

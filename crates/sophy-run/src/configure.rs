@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use sophy_codegen::Parameters;
 use sophy_diagnostics::closest;
 use sophy_field::{EventIndex, InputIndex, LocationIndex, ParameterIndex};
-use sophy_ir::{Automaton, Role, System};
+use sophy_ir::{Automaton, Role, State, System};
 use sophy_solvers::Quantum;
 
 /// What an experiment says, in indices.
@@ -28,7 +28,7 @@ pub(crate) fn configure(
     let mut collect = |result: Result<(), ExperimentError>| errors.extend(result.err());
     collect(times(experiment));
     let mut knobs = Parameters::new();
-    let parameters = positions(&system.parameters, |p| &p.name, experiment.knobs.is_empty());
+    let parameters = positions(&system.parameters, |p| p.name.clone(), experiment.knobs.is_empty());
     for (name, value) in &experiment.knobs {
         match parameters.get(name.as_str()) {
             Some(&position) if system.parameters[position].structural => {
@@ -41,26 +41,31 @@ pub(crate) fn configure(
                 knobs.insert(ParameterIndex::new(position), *value);
             }
             None => {
-                collect(Err(unknown("knobs", "parameter", name, &names(&system.parameters, |p| &p.name))));
+                collect(Err(unknown(
+                    "knobs",
+                    "parameter",
+                    name,
+                    &names(&system.parameters, |p| p.name.clone()),
+                )));
             }
         }
     }
-    let mut locations: Vec<LocationIndex> = system.automata.iter().map(|a| a.initial).collect();
+    let mut locations: Vec<LocationIndex> = system.automata.iter().map(|a| a.kind.initial).collect();
     for (component, location) in &experiment.initial_locations {
         collect(initial_location(system, component, location, &mut locations));
     }
-    let states = names(&system.states, |s| &s.name);
-    let known = positions(&system.states, |s| &s.name, experiment.initial.is_empty());
+    let states = || names(&system.states, |s| s.name(system));
+    let known = positions(&system.states, |s| s.name(system), experiment.initial.is_empty());
     for (name, _) in &experiment.initial {
         if !known.contains_key(name.as_str()) {
-            collect(Err(unknown("initial", "state", name, &states)));
+            collect(Err(unknown("initial", "state", name, &states())));
         }
     }
     for rule in &experiment.quanta {
-        collect(quantum_rule(rule, &states));
+        collect(quantum_rule(rule, system, states));
     }
     let default = Quantum::from_tolerance(experiment.tolerance);
-    let quanta = quanta(experiment, &states, default);
+    let quanta = quanta(experiment, system, default);
     let signals = match input_signals(system, experiment) {
         Ok(signals) => signals,
         Err(found) => {
@@ -76,8 +81,8 @@ pub(crate) fn configure(
         if let Some(port) = system.event_inputs.iter().find(|port| port.name == *label) {
             receivers.clone_from(&port.receivers);
         } else if receivers.is_empty() {
-            let mut known = names(&system.event_inputs, |port| &port.name);
-            known.extend(names(&system.events, |event| &event.name));
+            let mut known = names(&system.event_inputs, |port| port.name.clone());
+            known.extend(names(&system.events, |event| event.name.clone()));
             collect(Err(unknown("input_events", "input event", label, &known)));
         }
         events.extend(receivers.into_iter().map(|event| (*time, event)));
@@ -91,19 +96,22 @@ pub(crate) fn configure(
 }
 
 /// The quantum of every state: that of the last rule that matches it.
-fn quanta(experiment: &Experiment, states: &[&str], default: Quantum) -> Vec<Quantum> {
+fn quanta(experiment: &Experiment, system: &System, default: Quantum) -> Vec<Quantum> {
     // Rules that name one state are found by its name; later ones win over earlier.
     let rules = experiment.quanta.iter().enumerate();
     let (patterns, exact): (Vec<_>, Vec<_>) = rules.partition(|(_, rule)| rule.pattern.contains('*'));
     let exact: FxHashMap<&str, (usize, Quantum)> =
         exact.into_iter().map(|(at, rule)| (rule.pattern.as_str(), (at, rule.quantum))).collect();
-    let quantum = |name: &&str| {
-        let exact = exact.get(name).copied();
+    // Names are computed: not where nobody asks for them.
+    let asked = experiment.quanta.iter().any(|rule| rule.pattern != "*");
+    let quantum = |state: &State| {
+        let name = if asked { state.name(system) } else { String::new() };
+        let exact = exact.get(name.as_str()).copied();
         let after = patterns.iter().rev().take_while(|(at, _)| exact.is_none_or(|(exact, _)| *at > exact));
-        let pattern = after.map(|(_, rule)| rule).find(|rule| matches(&rule.pattern, name));
+        let pattern = after.map(|(_, rule)| rule).find(|rule| matches(&rule.pattern, &name));
         pattern.map(|rule| rule.quantum).or(exact.map(|(_, quantum)| quantum)).unwrap_or(default)
     };
-    states.iter().map(quantum).collect()
+    system.states.iter().map(quantum).collect()
 }
 
 /// The events that a name or a label means.
@@ -142,7 +150,11 @@ fn times(experiment: &Experiment) -> Result<(), ExperimentError> {
     Ok(())
 }
 
-fn quantum_rule(rule: &QuantumRule, states: &[&str]) -> Result<(), ExperimentError> {
+fn quantum_rule(
+    rule: &QuantumRule,
+    system: &System,
+    states: impl Fn() -> Vec<String>,
+) -> Result<(), ExperimentError> {
     let QuantumRule { pattern, quantum } = rule;
     let relative = quantum.relative >= 0.0 && quantum.relative.is_finite();
     if !relative {
@@ -157,8 +169,8 @@ fn quantum_rule(rule: &QuantumRule, states: &[&str]) -> Result<(), ExperimentErr
             format!("the quantum of `{pattern}` must be positive, it is {}", quantum.absolute),
         ));
     }
-    if !states.iter().any(|name| matches(pattern, name)) && pattern != "*" {
-        return Err(unknown("engine.quantum", "state", pattern, states));
+    if pattern != "*" && !system.states.iter().any(|state| matches(pattern, &state.name(system))) {
+        return Err(unknown("engine.quantum", "state", pattern, &states()));
     }
     Ok(())
 }
@@ -169,21 +181,24 @@ fn initial_location(
     location: &str,
     locations: &mut [LocationIndex],
 ) -> Result<(), ExperimentError> {
-    let is_meant = |a: &Automaton| a.role == Role::Component && a.name == component;
+    let is_meant = |a: &Automaton| a.kind.role == Role::Component && a.name(system) == component;
     let Some(position) = system.automata.iter().position(is_meant) else {
-        let components = system.automata.iter().filter(|a| a.role == Role::Component);
-        let known: Vec<&str> = components.map(|a| a.name.as_str()).collect();
+        let components = system.automata.iter().filter(|a| a.kind.role == Role::Component);
+        let known: Vec<String> = components.map(|a| a.name(system)).collect();
         return Err(unknown("initial_location", "component", component, &known));
     };
-    let automaton = &system.automata[position];
+    let automaton = &system.automata[position].kind;
     match automaton.locations.iter().position(|l| l.name == location) {
         Some(found) => {
             locations[position] = LocationIndex::new(found);
             Ok(())
         }
-        None => {
-            Err(unknown("initial_location", "location", location, &names(&automaton.locations, |l| &l.name)))
-        }
+        None => Err(unknown(
+            "initial_location",
+            "location",
+            location,
+            &names(&automaton.locations, |l| l.name.clone()),
+        )),
     }
 }
 
@@ -192,23 +207,23 @@ fn input_signals(
     experiment: &Experiment,
 ) -> Result<Vec<(InputIndex, Signal)>, Vec<ExperimentError>> {
     let mut errors = Vec::new();
-    let known = positions(&system.inputs, |u| &u.name, experiment.inputs.is_empty());
+    let known = positions(&system.inputs, |u| u.name(system), experiment.inputs.is_empty());
     let given: FxHashMap<&str, &Signal> =
         experiment.inputs.iter().map(|(name, signal)| (name.as_str(), signal)).collect();
     for (name, signal) in &experiment.inputs {
         if !known.contains_key(name.as_str()) {
-            errors.push(unknown("inputs", "input", name, &names(&system.inputs, |u| &u.name)));
+            errors.push(unknown("inputs", "input", name, &names(&system.inputs, |u| u.name(system))));
         } else {
             errors.extend(inputs::check(name, signal, experiment.start, experiment.stop).err());
         }
     }
     let mut signals = Vec::new();
     for (position, input) in system.inputs.iter().enumerate() {
-        match given.get(input.name.as_str()) {
+        let name = input.name(system);
+        match given.get(name.as_str()) {
             Some(&signal) => signals.push((InputIndex::new(position), signal.clone())),
             None => {
-                let unit = input.unit.as_ref().map(|u| format!(" ({u})")).unwrap_or_default();
-                let name = &input.name;
+                let unit = input.declared.unit.as_ref().map(|u| format!(" ({u})")).unwrap_or_default();
                 errors.push(
                     ExperimentError::new(
                         format!("inputs.{name}"),
@@ -225,11 +240,11 @@ fn input_signals(
 }
 
 /// `name` is not one of `known`.
-pub(crate) fn unknown(item: &str, kind: &str, name: &str, known: &[&str]) -> ExperimentError {
+pub(crate) fn unknown(item: &str, kind: &str, name: &str, known: &[String]) -> ExperimentError {
     let error = ExperimentError::new(format!("{item}.{name}"), format!("the model has no {kind} `{name}`"));
     let common = without_indices(name);
-    match closest(name, known.iter().copied()) {
-        _ if kind == "parameter" && common != name && known.contains(&common.as_str()) => {
+    match closest(name, known.iter().map(String::as_str)) {
+        _ if kind == "parameter" && common != name && known.contains(&common) => {
             error.help(format!("the copies have it in common: it is `{common}`"))
         }
         Some(meant) => error.help(format!("did you mean `{meant}`?")),
@@ -237,9 +252,11 @@ pub(crate) fn unknown(item: &str, kind: &str, name: &str, known: &[&str]) -> Exp
         None => {
             // Its neighbours first: what the component has, if there is one.
             let path = |name: &str| name.rsplit_once('.').map(|(path, _)| path.to_owned());
-            let beside = |one: &&&str| path(one) == path(name);
-            let neighbours: Vec<&str> = known.iter().filter(beside).copied().collect();
-            let known = if neighbours.is_empty() { known } else { &neighbours };
+            let mut near: Vec<&String> = known.iter().filter(|one| path(one) == path(name)).collect();
+            if near.is_empty() {
+                near = known.iter().collect();
+            }
+            let known = near;
             let shown: Vec<String> = known.iter().take(12).map(|name| format!("`{name}`")).collect();
             let more = if known.len() > 12 { ", …" } else { "" };
             error.help(format!("it has {}{more}", shown.join(", ")))
@@ -255,11 +272,11 @@ fn without_indices(name: &str) -> String {
 }
 
 /// Positions by name, the first of each; nothing if nobody will ask.
-fn positions<T>(items: &[T], name: impl Fn(&T) -> &String, unasked: bool) -> FxHashMap<&str, usize> {
+fn positions<T>(items: &[T], name: impl Fn(&T) -> String, unasked: bool) -> FxHashMap<String, usize> {
     let items = if unasked { &[] } else { items };
-    items.iter().enumerate().rev().map(|(position, item)| (name(item).as_str(), position)).collect()
+    items.iter().enumerate().rev().map(|(position, item)| (name(item), position)).collect()
 }
 
-pub(crate) fn names<T>(items: &[T], name: impl Fn(&T) -> &String) -> Vec<&str> {
-    items.iter().map(|item| name(item).as_str()).collect()
+pub(crate) fn names<T>(items: &[T], name: impl Fn(&T) -> String) -> Vec<String> {
+    items.iter().map(name).collect()
 }

@@ -102,7 +102,7 @@ impl Failure {
 fn transition_text(system: &System, transition: TransitionIndex) -> String {
     let t = &system.transitions[transition.position()];
     let automaton = &system.automata[t.automaton.position()];
-    let name = |l: LocationIndex| &automaton.locations[l.position()].name;
+    let name = |l: LocationIndex| &automaton.kind.locations[l.position()].name;
     format!("`{}` ({} → {})", t.name, name(t.source), name(t.destination))
 }
 
@@ -117,7 +117,7 @@ impl Reporter<'_> {
         match fault {
             Fault::NotFinite { state, time, value } => self.rate(state, time, value),
             Fault::StateNotFinite { state, time, value } => {
-                let name = &self.system.states[state.position()].name;
+                let name = self.system.states[state.position()].name(self.system);
                 let mut failure =
                     self.failure("SR0002", time, format!("state `{name}` is {value} at t = {time} s"));
                 let resets = self.system.transitions.iter().flat_map(|t| &t.resets);
@@ -157,7 +157,7 @@ impl Reporter<'_> {
                 failure
             }
             Fault::Resolution { state, time } => {
-                let name = &self.system.states[state.position()].name;
+                let name = self.system.states[state.position()].name(self.system);
                 let mut failure = self.failure(
                     "SR0005",
                     time,
@@ -195,15 +195,16 @@ impl Reporter<'_> {
     }
 
     fn rate(&self, state: StateIndex, time: f64, value: f64) -> Failure {
-        let name = &self.system.states[state.position()].name;
+        let name = self.system.states[state.position()].name(self.system);
         let mut failure =
             self.failure("SR0001", time, format!("the derivative of `{name}` is {value} at t = {time} s"));
         failure.span = self.rate_span(state);
         failure.notes.push(self.equation(state));
         failure.notes.push(self.values(self.rate_sources(state), time));
-        failure.notes.extend(
-            self.outside(self.system.states[state.position()].rate.at(self.location_of(state)), time),
-        );
+        failure.notes.extend(self.outside(
+            self.system.at(self.system.states[state.position()].rate, self.location_of(state)),
+            time,
+        ));
         failure
     }
 
@@ -214,7 +215,7 @@ impl Reporter<'_> {
         transitions: &[TransitionIndex; 2],
         values: &[f64; 2],
     ) -> Failure {
-        let name = &self.system.states[state.position()].name;
+        let name = self.system.states[state.position()].name(self.system);
         let mut failure = self.failure("SR0010", time, format!("`{name}` is assigned twice at t = {time} s"));
         failure.span = self.system.transitions[transitions[0].position()].span;
         for (transition, value) in transitions.iter().zip(values) {
@@ -230,7 +231,7 @@ impl Reporter<'_> {
     /// What moves has left its range.
     fn range(&self, stair: StairIndex, time: f64, value: f64) -> Option<Failure> {
         let (range, name, unit, bounds) = watched(self.system, self.parameters, stair)?;
-        let sentence = ranges::outside(name, value, bounds, unit);
+        let sentence = ranges::outside(&name, value, bounds, unit);
         let mut failure = self.failure("SR0011", time, format!("{sentence}, at t = {time} s"));
         failure.span = range.span;
         let leaves = match &range.of {
@@ -238,7 +239,7 @@ impl Reporter<'_> {
                 failure.notes.push(self.equation(*state));
                 self.rate_sources(*state)
             }
-            Ranged::Value { value, .. } => self.system.row_sources(value),
+            Ranged::Value { value, .. } => self.system.row_sources(*value),
             Ranged::Parameter(_) => Vec::new(),
         };
         failure.notes.push(self.values(leaves, time));
@@ -324,22 +325,26 @@ impl Reporter<'_> {
     }
 
     fn rate_span(&self, state: StateIndex) -> Option<Span> {
-        self.system.states[state.position()].rate.spans[self.location_of(state).position()]
+        self.system.span(self.system.states[state.position()].rate, self.location_of(state))
     }
 
     fn equation(&self, state: StateIndex) -> String {
         let (s, location) = (&self.system.states[state.position()], self.location_of(state));
         let owner = &self.system.automata[s.rate.owner.position()];
-        let place = match owner.locations.len() {
+        let place = match owner.kind.locations.len() {
             1 => String::new(),
-            _ => format!(" in location `{}`", owner.locations[location.position()].name),
+            _ => format!(" in location `{}`", owner.kind.locations[location.position()].name),
         };
-        format!("the equation{place} is der({}) = {}", s.name, self.system.text(s.rate.at(location)))
+        format!(
+            "the equation{place} is der({}) = {}",
+            s.name(self.system),
+            self.system.text(self.system.at(s.rate, location))
+        )
     }
 
     fn rate_sources(&self, state: StateIndex) -> Vec<Leaf> {
-        let row = &self.system.states[state.position()].rate;
-        self.system.graph.dependencies([row.at(self.location_of(state))]).into_iter().collect()
+        let row = self.system.states[state.position()].rate;
+        self.system.graph.dependencies([self.system.at(row, self.location_of(state))]).into_iter().collect()
     }
 
     fn watch_text(&self, watch: WatchIndex) -> String {
@@ -362,11 +367,12 @@ impl Reporter<'_> {
             self.engine.locations()[t.automaton.position()] == t.source
                 && t.trigger.guard().is_some_and(reads)
         });
-        let rates = self.system.states.iter().map(|state| &state.rate);
-        let values = self.system.algebraics.iter().map(|z| &z.value).chain(&self.system.guarded);
+        let rates = self.system.states.iter().map(|state| state.rate);
+        let values =
+            self.system.algebraics.iter().map(|z| z.value).chain(self.system.guarded.iter().copied());
         let row = rates.chain(values).find_map(|row| {
             let location = self.engine.locations()[row.owner.position()];
-            reads(row.at(location)).then(|| row.spans[location.position()])
+            reads(self.system.at(row, location)).then(|| self.system.span(row, location))
         });
         transition.and_then(|t| t.span).or(row.flatten())
     }

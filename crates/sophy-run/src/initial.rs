@@ -22,7 +22,14 @@ pub(crate) fn initial_states(
 ) -> Result<Vec<f64>, Vec<ExperimentError>> {
     let given: HashMap<&str, f64> =
         experiment.initial.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    let given = |position: usize| given.get(system.states[position].name.as_str()).copied();
+    // Names are computed: not where nobody asks for them.
+    let given = |position: usize| {
+        if given.is_empty() {
+            None
+        } else {
+            given.get(system.states[position].name(system).as_str()).copied()
+        }
+    };
     let states = vec![None; system.states.len()];
     let mut start = Start { system, time: experiment.start, parameters, inputs, locations, states };
     for (position, state) in system.states.iter().enumerate() {
@@ -46,11 +53,11 @@ pub(crate) fn initial_states(
     let mut errors = Vec::new();
     let mut values = Vec::with_capacity(sides.len());
     for (position, (state, value)) in system.states.iter().zip(sides).enumerate() {
-        let name = &state.name;
         match value {
             Some(value) if value.is_finite() => {
                 values.push(value);
                 if let Some(sentence) = ranges.refuse(system, StateIndex::new(position), value) {
+                    let name = state.name(system);
                     errors.push(ExperimentError::new(
                         format!("initial.{name}"),
                         format!("{sentence}, at the start"),
@@ -58,22 +65,25 @@ pub(crate) fn initial_states(
                 }
             }
             Some(value) => {
+                let name = state.name(system);
                 let reasons = start.outside(position);
-                let reason = if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
+                let reason =
+                    if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
                 errors.push(ExperimentError::new(
                     format!("initial.{name}"),
                     format!("the initial value of state `{name}` is {value}{reason}"),
                 ));
             }
-            None => errors.push(
-                ExperimentError::new(
+            None => {
+                let name = state.name(system);
+                errors.push(ExperimentError::new(
                     format!("initial.{name}"),
                     format!("state `{name}` has no initial value"),
                 )
                 .help(format!(
                     "give one in the experiment (`[initial] \"{name}\" = 0`, `--initial {name}=0`) or in the model (`state {name} := 0;`, in SOPHY XML `<hint hintname=\"initial {name}\">0</hint>`)"
-                )),
-            ),
+                )));
+            }
         }
     }
     if errors.is_empty() { Ok(values) } else { Err(errors) }
@@ -138,9 +148,9 @@ impl Start<'_> {
     }
 
     fn definition(&self, z: usize) -> Option<NodeId> {
-        let row = &self.system.algebraics.get(z)?.plain;
+        let row = self.system.algebraics.get(z)?.plain;
         let location = self.locations.get(row.owner.position())?;
-        row.by_location.get(location.position()).copied()
+        self.system.nodes(row).get(location.position()).copied()
     }
 
     /// Tables read outside of their range by what a state starts with.

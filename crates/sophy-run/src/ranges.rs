@@ -4,7 +4,7 @@
 
 use crate::experiment::ExperimentError;
 use sophy_field::{ColumnIndex, Equations, StairIndex, StateIndex};
-use sophy_ir::{Allowed, Leaf, NodeId, Range, Ranged, State, System, Value, evaluate};
+use sophy_ir::{Allowed, Declared, Leaf, NodeId, Range, Ranged, System, Value, evaluate};
 use sophy_solvers::Quantum;
 use std::collections::BTreeMap;
 
@@ -37,7 +37,9 @@ impl Ranges {
                     let Some(parameter) = system.parameters.get(i.position()) else { continue };
                     let value = parameters.get(i.position()).copied().unwrap_or(f64::NAN);
                     let name = &parameter.name;
-                    if let Some(sentence) = refusal(name, value, &numbers(), parameter.unit.as_deref()) {
+                    if let Some(sentence) =
+                        refusal(|| name.clone(), value, &numbers(), parameter.unit.as_deref())
+                    {
                         errors.push(
                             ExperimentError::new(format!("knobs.{name}"), sentence)
                                 .help("change the value, or the range in the model"),
@@ -52,7 +54,8 @@ impl Ranges {
 
     /// What is wrong with a value of a state.
     pub(crate) fn refuse(&self, system: &System, state: StateIndex, value: f64) -> Option<String> {
-        let State { name, choices, unit, .. } = system.states.get(state.position())?;
+        let state_of = system.states.get(state.position())?;
+        let Declared { choices, unit, .. } = &*state_of.declared;
         if !choices.is_empty() {
             let text = |number: usize| system.texts.get(number).map_or("", String::as_str);
             if choices.iter().any(|&choice| choice as f64 == value) {
@@ -60,22 +63,23 @@ impl Ranges {
             }
             let known: Vec<_> = choices.iter().map(|&choice| format!("\"{}\"", text(choice))).collect();
             let value = text(value as usize);
+            let name = state_of.name(system);
             return Some(format!("`{name}` is \"{value}\", which is none of {{{}}}", known.join(", ")));
         }
         let found = self.0.binary_search_by_key(&state, |(state, _)| *state).ok()?;
-        refusal(name, value, &self.0.get(found)?.1, unit.as_deref())
+        refusal(|| state_of.name(system), value, &self.0.get(found)?.1, unit.as_deref())
     }
 }
 
 /// That a value is outside; what is not a number has messages of its own.
-fn refusal(name: &str, value: f64, numbers: &Numbers, unit: Option<&str>) -> Option<String> {
+fn refusal(name: impl Fn() -> String, value: f64, numbers: &Numbers, unit: Option<&str>) -> Option<String> {
     match numbers {
         Numbers::Between(bounds) => {
-            (value < bounds[0] || value > bounds[1]).then(|| outside(name, value, *bounds, unit))
+            (value < bounds[0] || value > bounds[1]).then(|| outside(&name(), value, *bounds, unit))
         }
         Numbers::OneOf(numbers) => (!value.is_nan() && !numbers.contains(&value)).then(|| {
             let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
-            format!("`{name}` is {value}, which is none of {{{}}}", numbers.join(", "))
+            format!("`{}` is {value}, which is none of {{{}}}", name(), numbers.join(", "))
         }),
     }
 }
@@ -91,14 +95,16 @@ pub(crate) fn watched<'a>(
     system: &'a System,
     parameters: &[f64],
     stair: StairIndex,
-) -> Option<(&'a Range, &'a str, Option<&'a str>, [f64; 2])> {
+) -> Option<(&'a Range, String, Option<&'a str>, [f64; 2])> {
     let range = system.ranges.iter().find(|range| range.stairs.contains(&stair))?;
     let Allowed::Between(bounds) = range.allowed else { return None };
     let (name, unit) = match &range.of {
         Ranged::State(state) => {
-            system.states.get(state.position()).map(|state| (&state.name, &state.unit))?
+            system.states.get(state.position()).map(|state| (state.name(system), &state.declared.unit))?
         }
-        Ranged::Value { name, unit, .. } => (name, unit),
+        Ranged::Value { component, declared, .. } => {
+            (system.components.full_name(*component, declared), &declared.unit)
+        }
         Ranged::Parameter(_) => return None,
     };
     Some((range, name, unit.as_deref(), bounds.map(|bound| number(system, parameters, bound))))
@@ -141,7 +147,7 @@ pub(crate) fn watch(
         let own = match &range.of {
             Ranged::State(state) => quantum(*state),
             Ranged::Value { value, .. } => {
-                let sources = system.row_sources(value);
+                let sources = system.row_sources(*value);
                 let mut of = |node: NodeId| {
                     let of_one = |leaf: &Leaf| match leaf {
                         Leaf::State(state) => moved(node, *state, quantum(*state)),
@@ -149,7 +155,7 @@ pub(crate) fn watch(
                     };
                     sources.iter().map(of_one).filter(|moved| moved.is_finite()).sum::<f64>()
                 };
-                value.by_location.iter().map(|&node| of(node)).fold(0.0, f64::max)
+                system.nodes(*value).iter().map(|&node| of(node)).fold(0.0, f64::max)
             }
             Ranged::Parameter(_) => 0.0,
         };

@@ -123,7 +123,7 @@ impl Recorder {
         for shown in shown_of(&self.reals, &self.labels) {
             let Real::Output(index) = shown else { continue };
             let first = e.outputs[index].first as usize;
-            let formulas = &e.formulas[first..][..system.outputs[index].value.by_location.len()];
+            let formulas = &e.formulas[first..][..system.nodes(system.outputs[index].value).len()];
             for source in formulas.iter().flat_map(|formula| e.sources(&formula.sources)) {
                 self.read[source.position()] = true;
             }
@@ -134,7 +134,7 @@ impl Recorder {
     fn shows_curves(&self, system: &System) -> bool {
         let mut linearity = Linearity::default();
         for (z, algebraic) in system.algebraics.iter().enumerate() {
-            linearity.algebraic(&system.graph, AlgebraicIndex::new(z), &algebraic.value);
+            linearity.algebraic(&system.graph, AlgebraicIndex::new(z), system.nodes(algebraic.value));
         }
         let mut outputs = shown_of(&self.reals, &self.labels).filter_map(|shown| match shown {
             Real::Output(index) => system.outputs.get(index),
@@ -144,13 +144,13 @@ impl Recorder {
             let curved = |&node: &NodeId| !linearity.is_affine(&system.graph, node);
             let moves = |leaf: Leaf| match leaf {
                 Leaf::State(state) => {
-                    let rate = &system.states[state.position()].rate;
-                    rate.by_location.iter().any(|&node| system.graph.as_number(node) != Some(0.0))
+                    let rate = system.states[state.position()].rate;
+                    system.nodes(rate).iter().any(|&node| system.graph.as_number(node) != Some(0.0))
                 }
                 Leaf::Input(_) | Leaf::Time => true,
                 _ => false,
             };
-            y.value.by_location.iter().any(curved) && system.row_sources(&y.value).into_iter().any(moves)
+            system.nodes(y.value).iter().any(curved) && system.row_sources(y.value).into_iter().any(moves)
         })
     }
 

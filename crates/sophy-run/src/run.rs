@@ -33,7 +33,8 @@ pub struct Run {
     pub journal: Journal,
     /// Transitions taken since they were last drained.
     pub taken: Vec<Taken>,
-    quanta: Vec<Quantum>,
+    /// The quanta in the order of states: each, and how many states in a row have it.
+    quanta: Vec<(usize, Quantum)>,
     time: f64,
     /// Values at the start, for recorders.
     start_inputs: Vec<[f64; 2]>,
@@ -91,7 +92,8 @@ impl Run {
         let moved = moved(&system, experiment.start, parameters, &lines, locations, &states);
         watch(&system, equations, parameters, &configured.quanta, moved);
         let equations = &compiled.equations;
-        let mut settings = Settings::for_span(configured.quanta.clone(), experiment.stop - experiment.start);
+        let quanta = runs(&configured.quanta);
+        let mut settings = Settings::for_span(configured.quanta, experiment.stop - experiment.start);
         settings.implicit = experiment.method.is_implicit();
         let engine: Box<dyn Engine> = match configured.order {
             1 => Box::new(Qss1::new(equations, settings)),
@@ -109,7 +111,7 @@ impl Run {
             changes: Changes::default(),
             journal: Journal::wanted(),
             taken: Vec::new(),
-            quanta: configured.quanta,
+            quanta,
             time: experiment.start,
             start_inputs: lines,
             start_locations: configured.locations,
@@ -135,6 +137,7 @@ impl Run {
         });
         begun.map_err(|error| StartError::Failure(Box::new(run.failure(&error))))?;
         run.react(experiment.start).map_err(StartError::Failure)?;
+        run.journal.shrink_to_fit();
         Ok(run)
     }
 
@@ -316,9 +319,9 @@ impl Run {
         self.engine.jacobian(&self.compiled.equations, self.time)
     }
 
-    /// The quanta in use.
-    pub fn quanta(&self) -> &[Quantum] {
-        &self.quanta
+    /// The quanta in use, in the order of states.
+    pub fn quanta(&self) -> impl Iterator<Item = Quantum> {
+        self.quanta.iter().flat_map(|&(states, quantum)| std::iter::repeat_n(quantum, states))
     }
 
     /// Value and slope of every input at the start.
@@ -335,6 +338,11 @@ impl Run {
     pub fn statistics(&self) -> RunStatistics {
         RunStatistics { engine: self.engine.statistics(), hybrid: self.control.counts() }
     }
+}
+
+/// Quanta, equal ones in a row as one.
+fn runs(quanta: &[Quantum]) -> Vec<(usize, Quantum)> {
+    quanta.chunk_by(|a, b| a == b).map(|run| (run.len(), run[0])).collect()
 }
 
 /// A run cannot start.

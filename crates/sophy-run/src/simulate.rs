@@ -237,9 +237,9 @@ fn event(run: &Run, taken: &Taken) -> EventRecord {
     EventRecord {
         time: taken.time,
         step: taken.step,
-        component: automaton.name.clone(),
+        component: automaton.name(system),
         transition: transition.name.clone(),
-        from: automaton.locations[transition.source.position()].name.clone(),
-        to: automaton.locations[transition.destination.position()].name.clone(),
+        from: automaton.kind.locations[transition.source.position()].name.clone(),
+        to: automaton.kind.locations[transition.destination.position()].name.clone(),
     }
 }

@@ -2,25 +2,34 @@
 
 use sophy_field::{AutomatonIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex};
 use sophy_ir::{
-    Automaton, ClassIndex, Comparison, FlatLocation, FlatReset, FlatTransition, FlatTrigger, Graph, Leaf,
-    NodeId, Origin, Parameter, Quantity, Role, Row, State, System, Unary, VariableId,
+    Automaton, AutomatonKind, ClassIndex, Comparison, ComponentIndex, Composite, Declared, FlatLocation,
+    FlatReset, FlatTransition, FlatTrigger, Graph, Leaf, Member, Members, NodeId, Origin, Parameter,
+    Quantity, Role, Row, State, System, Unary, VariableId,
 };
+use std::sync::Arc;
 
 /// Nothing was written.
 const ORIGIN: Origin = Origin { class: ClassIndex(0), variable: VariableId(0) };
 
-fn state(name: String, initial: NodeId, rate: Row) -> State {
-    State {
-        name,
+fn declared(name: &str) -> Arc<Declared> {
+    Arc::new(Declared {
+        name: name.to_owned(),
         unit: None,
         quantity: Quantity::Real,
-        discrete: false,
         choices: Vec::new(),
+        origin: ORIGIN,
+        span: None,
+    })
+}
+
+fn state(component: u32, declared: &Arc<Declared>, initial: NodeId, rate: Row) -> State {
+    State {
+        component: ComponentIndex(component),
+        declared: Arc::clone(declared),
+        discrete: false,
         initial: Some(initial),
         sign_of: None,
         rate,
-        origin: ORIGIN,
-        span: None,
     }
 }
 
@@ -31,12 +40,34 @@ fn state(name: String, initial: NodeId, rate: Row) -> State {
 /// from v > 1 (w is raised then) until v < −½, and s follows faster meanwhile. Kinks are not lifted yet.
 pub fn ring(count: usize, events: bool) -> System {
     let mut system = System { name: "ring".to_owned(), ..System::default() };
+    let cells = Member {
+        name: "cell".to_owned(),
+        class: ClassIndex(0),
+        extents: vec![count as u32],
+        element: Vec::new(),
+        parameters: Vec::new(),
+        documentation: String::new(),
+        span: None,
+    };
+    let cells = Composite { members: vec![cells], ..Composite::default() };
+    system.components.hold(1, ComponentIndex(0), Members::of(&cells));
+    let states = ["v", "w", "s"].map(declared);
+    let names = &["rest", "busy"][..if events { 2 } else { 1 }];
+    let outgoing = |l: u32| if events { vec![l] } else { Vec::new() };
+    let locations = (0..).zip(names);
+    let kind = Arc::new(AutomatonKind {
+        role: Role::Component,
+        locations: locations
+            .map(|(l, name)| FlatLocation { name: (*name).to_owned(), transitions: outgoing(l) })
+            .collect(),
+        initial: LocationIndex(0),
+    });
     for cell in 0..count {
         let before = if cell == 0 { count - 1 } else { cell - 1 };
         let owner = AutomatonIndex::new(cell);
         let current = ParameterIndex::new(cell);
         let value = system.graph.number(0.3 + 0.2 * scatter(cell, 3));
-        let name = format!("cell[{cell}].I");
+        let name = format!("cell[{}].I", cell + 1);
         system.parameters.push(Parameter {
             name,
             value,
@@ -68,23 +99,16 @@ pub fn ring(count: usize, events: bool) -> System {
         let lag = g.subtract(v, s);
         let (s_rest, s_busy) = (g.divide(lag, slow), g.divide(lag, fast));
         let rows = [[v_rate; 2], [w_rate; 2], [s_rest, s_busy]];
-        let locations = if events { 2 } else { 1 };
-        for (k, (name, row)) in ["v", "w", "s"].into_iter().zip(rows).enumerate() {
+        let locations = names.len();
+        for (k, (name, row)) in states.iter().zip(rows).enumerate() {
             let initial = system.graph.number(4.0 * scatter(cell, k) - 2.0);
-            let rate = Row { owner, by_location: row[..locations].to_vec(), spans: vec![None; locations] };
-            let name = format!("cell[{cell}].{name}");
-            system.states.push(state(name, initial, rate));
+            let rate = system.row(owner, &row[..locations], Row::NOWHERE);
+            system.states.push(state(cell as u32 + 1, name, initial, rate));
         }
-        let names = &["rest", "busy"][..locations];
-        let first = system.transitions.len();
-        let outgoing = |l: usize| if events { vec![TransitionIndex::new(first + l)] } else { Vec::new() };
-        let location =
-            |(l, name): (usize, &&str)| FlatLocation { name: (*name).to_owned(), transitions: outgoing(l) };
         system.automata.push(Automaton {
-            name: format!("cell[{cell}]"),
-            locations: names.iter().enumerate().map(location).collect(),
-            initial: LocationIndex(0),
-            role: Role::Component,
+            component: ComponentIndex(cell as u32 + 1),
+            kind: Arc::clone(&kind),
+            first: TransitionIndex::new(system.transitions.len()),
         });
         if events {
             transitions(&mut system, owner, v, w, index(cell, 1));
@@ -126,13 +150,13 @@ pub fn distinct(count: usize) -> System {
         let chain = chain(g, near, position);
         let rate = g.subtract(chain, near[1]);
         let initial = g.number(scatter(position, 0));
-        let rate = Row { owner: AutomatonIndex(0), by_location: vec![rate], spans: vec![None] };
-        system.states.push(state(format!("x{position}"), initial, rate));
+        let rate = system.row(AutomatonIndex(0), &[rate], Row::NOWHERE);
+        system.states.push(state(0, &declared(&format!("x{position}")), initial, rate));
     }
     let location = FlatLocation { name: "all".to_owned(), transitions: Vec::new() };
-    let name = String::new();
     let (locations, initial, role) = (vec![location], LocationIndex(0), Role::Component);
-    system.automata.push(Automaton { name, locations, initial, role });
+    let kind = Arc::new(AutomatonKind { role, locations, initial });
+    system.automata.push(Automaton { component: ComponentIndex(0), kind, first: TransitionIndex(0) });
     system
 }
 

@@ -11,10 +11,10 @@ pub(crate) fn at_start(run: &Run, experiment: &Experiment, provenance: &Provenan
     let states = run.system().states.iter().zip(run.quanta());
     let quanta: Vec<String> = states
         .map(|(state, quantum)| match quantum.relative {
-            0.0 => format!("{} = {:?}", state.name, quantum.absolute),
+            0.0 => format!("{} = {:?}", state.name(run.system()), quantum.absolute),
             relative => {
                 let size = if quantum.largest { "largest |x| so far" } else { "|x|" };
-                format!("{} = max({:?}, {relative:?}·{size})", state.name, quantum.absolute)
+                format!("{} = max({:?}, {relative:?}·{size})", state.name(run.system()), quantum.absolute)
             }
         })
         .collect();

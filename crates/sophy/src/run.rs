@@ -241,10 +241,10 @@ fn is_picture(path: &Path) -> bool {
 fn locations(run: &Run) -> Vec<(String, String)> {
     let automata = run.system().automata.iter().enumerate();
     automata
-        .filter(|(_, automaton)| automaton.role == Role::Component && automaton.locations.len() > 1)
+        .filter(|(_, automaton)| automaton.kind.role == Role::Component && automaton.kind.locations.len() > 1)
         .map(|(position, automaton)| {
             let location = run.location(sophy_field::AutomatonIndex::new(position));
-            (automaton.name.clone(), automaton.locations[location.position()].name.clone())
+            (automaton.name(run.system()), automaton.kind.locations[location.position()].name.clone())
         })
         .collect()
 }

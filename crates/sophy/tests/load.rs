@@ -2,6 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
+mod load {
+    mod memory;
+}
+
 use sophy::{
     Loaded, MemoryWorld, Quantum, Root, Style, check, load, load_as, load_experiment, render, to_hsml, to_xml,
 };

@@ -6,9 +6,11 @@ use super::copy::Context;
 use super::events::Routes;
 use sophy_field::{AutomatonIndex, LocationIndex, StateIndex, TransitionIndex};
 use sophy_ir::{
-    Actions, Automaton, Body, Class, Comparison, EventSection, FlatEmission, FlatLocation, FlatReset,
-    FlatTransition, FlatTrigger, HybridAutomaton, Leaf, Node, Role, Trigger, VariableId,
+    Actions, Automaton, AutomatonKind, Body, Class, Comparison, ComponentIndex, EventSection, FlatEmission,
+    FlatLocation, FlatReset, FlatTransition, FlatTrigger, HybridAutomaton, Leaf, Node, Role, Trigger,
+    VariableId,
 };
+use std::sync::Arc;
 
 /// The sides of a flag, as locations.
 const NEGATIVE: LocationIndex = LocationIndex(0);
@@ -22,30 +24,26 @@ impl<'a> Flattener<'a> {
             let class = self.tree.class(instance);
             match &class.body {
                 Body::Composite(_) => {}
-                Body::Discrete(_) => {
-                    let name = self.tree.name(instance);
-                    self.system.automata.push(without_locations(name));
-                }
+                Body::Discrete(_) => self.without_locations(instance),
                 Body::Automaton(automaton) => {
                     self.component(instance, automaton, &routes);
-                    for section in &automaton.events {
-                        self.section(instance, class, section, &routes);
+                    for (number, section) in (1..).zip(&automaton.events) {
+                        self.section(instance, class, (number, section), &routes);
                     }
                 }
             }
         }
         // Outputs of a composite without members need an owner.
         if self.system.automata.is_empty() {
-            self.system.automata.push(without_locations(String::new()));
+            self.without_locations(0);
         }
     }
 
     fn component(&mut self, instance: u32, automaton: &'a HybridAutomaton, routes: &Routes<'a>) {
         let owner = self.owner(instance);
-        let mut locations = Vec::with_capacity(automaton.locations.len());
+        let first = self.system.transitions.len();
         for (source, location) in automaton.locations.iter().enumerate() {
             let context = self.context(instance, Some(source as u32));
-            let first = self.system.transitions.len();
             for (position, transition) in location.transitions.iter().enumerate() {
                 let trigger = match &transition.trigger {
                     Trigger::When(guard) => FlatTrigger::When(self.condition(context, *guard)),
@@ -69,25 +67,51 @@ impl<'a> Flattener<'a> {
                     span: transition.span,
                 });
             }
-            locations.push(self.location(location.name.clone(), first));
         }
-        self.system.automata.push(Automaton {
-            name: self.tree.name(instance),
-            role: Role::Component,
-            locations,
-            initial: LocationIndex::new(automaton.initial_location),
-        });
+        let names = automaton.locations.iter().map(|location| location.name.as_str());
+        let initial = LocationIndex::new(automaton.initial_location);
+        self.automaton(instance, 0, first, names, (Role::Component, initial));
     }
 
-    /// A location whose transitions are those from `first` on.
-    fn location(&self, name: String, first: usize) -> FlatLocation {
-        let mut transitions: Vec<_> =
-            (first..self.system.transitions.len()).map(TransitionIndex::new).collect();
-        transitions.sort_by_key(|t| self.system.transitions[t.position()].priority);
-        FlatLocation { name, transitions }
+    /// An automaton whose transitions are those from `first` on; `number`: which one of its component.
+    fn automaton<'n>(
+        &mut self,
+        instance: u32,
+        number: usize,
+        first: usize,
+        names: impl Iterator<Item = &'n str>,
+        (role, initial): (Role, LocationIndex),
+    ) {
+        let own = &self.system.transitions[first..];
+        let make = || {
+            let mut locations: Vec<_> =
+                names.map(|name| FlatLocation { name: name.to_owned(), transitions: Vec::new() }).collect();
+            for (transition, one) in (0..).zip(own) {
+                locations[one.source.position()].transitions.push(transition);
+            }
+            for location in &mut locations {
+                location.transitions.sort_by_key(|&transition| own[transition as usize].priority);
+            }
+            Arc::new(AutomatonKind { role, locations, initial })
+        };
+        let key = (self.tree.instance(instance).class, number);
+        let kind = Arc::clone(self.kinds.entry(key).or_insert_with(make));
+        let (component, first) = (ComponentIndex(instance), TransitionIndex::new(first));
+        self.system.automata.push(Automaton { component, kind, first });
     }
 
-    fn section(&mut self, instance: u32, class: &'a Class, section: &'a EventSection, routes: &Routes<'a>) {
+    fn without_locations(&mut self, instance: u32) {
+        let first = self.system.transitions.len();
+        self.automaton(instance, 0, first, [""].into_iter(), (Role::Owner, LocationIndex(0)));
+    }
+
+    fn section(
+        &mut self,
+        instance: u32,
+        class: &'a Class,
+        (number, section): (usize, &'a EventSection),
+        routes: &Routes<'a>,
+    ) {
         let context = self.context(instance, None);
         let automaton = AutomatonIndex::new(self.system.automata.len());
         let slot = self.tree.instance(instance).base + section.flag.0;
@@ -95,12 +119,11 @@ impl<'a> Flattener<'a> {
         let zero = self.system.graph.number(0.0);
         let name = &class.variable(section.flag).name;
         let directions = [
-            ("-", "negative-to-positive", NEGATIVE, POSITIVE, Comparison::Greater, &section.rising),
-            ("+", "positive-to-negative", POSITIVE, NEGATIVE, Comparison::Less, &section.falling),
+            ("negative-to-positive", NEGATIVE, POSITIVE, Comparison::Greater, &section.rising),
+            ("positive-to-negative", POSITIVE, NEGATIVE, Comparison::Less, &section.falling),
         ];
-        let mut locations = Vec::with_capacity(2);
-        for (side, direction, source, destination, comparison, actions) in directions {
-            let first = self.system.transitions.len();
+        let first = self.system.transitions.len();
+        for (direction, source, destination, comparison, actions) in directions {
             let guard = self.system.graph.compare(comparison, flag, zero);
             let (resets, emits) = match actions {
                 Some(actions) => self.actions(context, instance, actions, routes),
@@ -118,11 +141,9 @@ impl<'a> Flattener<'a> {
                 silent: actions.is_none(),
                 span: section.span,
             });
-            locations.push(self.location(side.to_owned(), first));
             self.modes_of(instance, actions.as_ref(), flag);
         }
-        let name = self.tree.name(instance);
-        self.system.automata.push(Automaton { name, role: Role::Flag, locations, initial: NEGATIVE });
+        self.automaton(instance, number, first, ["-", "+"].into_iter(), (Role::Flag, NEGATIVE));
     }
 
     fn actions(
@@ -157,9 +178,4 @@ impl<'a> Flattener<'a> {
             _ => None,
         }
     }
-}
-
-fn without_locations(name: String) -> Automaton {
-    let only = FlatLocation { name: String::new(), transitions: Vec::new() };
-    Automaton { name, role: Role::Owner, locations: vec![only], initial: LocationIndex(0) }
 }

@@ -62,9 +62,8 @@ impl<'a> Flattener<'a> {
     /// The input events that receive a label of an instance.
     pub(super) fn receivers(&self, routes: &Routes<'a>, instance: u32, label: &'a str) -> Vec<EventIndex> {
         let mut found = BTreeSet::new();
-        let at = self.tree.instance(instance);
-        if let Some(parent) = at.parent {
-            self.follow(routes, parent, Some(at.member), at.copy, label, &mut found);
+        if let Some((parent, member, copy)) = self.tree.held_as(instance) {
+            self.follow(routes, parent, Some(member), copy, label, &mut found);
         }
         found.into_iter().collect()
     }
@@ -88,10 +87,11 @@ impl<'a> Flattener<'a> {
             let (composite, member, copy, label) = end;
             let routes = &routes[self.tree.instance(composite).class.0 as usize];
             for to in routes.get(&(member, copy, label)).into_iter().flatten() {
-                let at = self.tree.instance(composite);
-                match (to.member, at.parent) {
+                match (to.member, self.tree.held_as(composite)) {
                     (None, None) => {}
-                    (None, Some(parent)) => pending.push((parent, Some(at.member), at.copy, &to.label)),
+                    (None, Some((parent, member, copy))) => {
+                        pending.push((parent, Some(member), copy, &to.label));
+                    }
                     (Some(_), _) => {
                         let receiver = self.tree.end(composite, to.member, to.copy);
                         match &self.tree.class(receiver).body {

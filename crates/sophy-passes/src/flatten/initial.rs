@@ -72,7 +72,8 @@ impl Flattener<'_> {
                 } else if std::mem::replace(&mut open[next], true) {
                     let start = pending.iter().position(|&other| other == next).unwrap_or(0);
                     let circle = pending[start..].iter().filter(|&&p| open[p]);
-                    let name = |&p: &usize| self.system.states[written[p].state.position()].name.clone();
+                    let name =
+                        |&p: &usize| self.system.states[written[p].state.position()].name(&self.system);
                     return Err(FlattenError::InitialLoop(circle.map(name).collect()));
                 } else {
                     pending.extend(missing);
@@ -92,8 +93,8 @@ impl Flattener<'_> {
                     found.insert(state);
                 }
                 Leaf::Algebraic(z) if seen.insert(z) => {
-                    let row = &self.system.algebraics[z.position()].plain;
-                    pending.extend(self.system.graph.dependencies(row.by_location.iter().copied()));
+                    let row = self.system.algebraics[z.position()].plain;
+                    pending.extend(self.system.graph.dependencies(self.system.nodes(row).iter().copied()));
                 }
                 _ => {}
             }

@@ -26,8 +26,11 @@ use awaits::Part;
 use copy::Scratch;
 use facts::Facts;
 use sophy_field::{AutomatonIndex, StateIndex};
-use sophy_ir::{Model, NodeId, System};
+use sophy_ir::{
+    AutomatonKind, Class, ClassIndex, Declared, Model, NodeId, Origin, Quantity, System, VariableId,
+};
 use std::collections::HashMap;
+use std::sync::Arc;
 use tables::Columns;
 use tree::Tree;
 
@@ -68,6 +71,14 @@ struct Flattener<'a> {
     automaton_of: Vec<Option<AutomatonIndex>>,
     /// Per instance that has input events: the first of them.
     first_event: Vec<u32>,
+    /// Per class, per variable: what was declared.
+    declared: Vec<Vec<Arc<Declared>>>,
+    /// What stands for `location_index` where others see it.
+    location_index: Arc<Declared>,
+    /// What the automata of a class have in common: that of its locations, then those of its event sections.
+    kinds: HashMap<(ClassIndex, usize), Arc<AutomatonKind>>,
+    /// Per class: where its spans begin, once they are known.
+    first_span: Vec<Option<u32>>,
     /// Per class: what was copied last.
     scratch: Vec<Scratch>,
     pending: Vec<NodeId>,
@@ -82,10 +93,35 @@ struct Flattener<'a> {
 }
 
 impl<'a> Flattener<'a> {
+    /// What was declared of a variable.
+    fn declared(&self, class: ClassIndex, id: VariableId) -> Arc<Declared> {
+        Arc::clone(&self.declared[class.0 as usize][id.0 as usize])
+    }
+
     fn new(tree: &'a Tree<'a>) -> Self {
         let model = tree.model;
         Flattener {
-            system: System { name: model.name().to_owned(), texts: model.texts.clone(), ..System::default() },
+            system: System {
+                name: model.name().to_owned(),
+                components: tree.components.clone(),
+                texts: model.texts.clone(),
+                ..System::default()
+            },
+            declared: (0..)
+                .map(ClassIndex)
+                .zip(&model.classes)
+                .map(|(index, class)| declared(index, class))
+                .collect(),
+            location_index: Arc::new(Declared {
+                name: "location_index".to_owned(),
+                unit: None,
+                quantity: Quantity::Integer,
+                choices: Vec::new(),
+                origin: Origin { class: model.root, variable: VariableId(u32::MAX) },
+                span: None,
+            }),
+            kinds: HashMap::new(),
+            first_span: vec![None; model.classes.len()],
             parameters: vec![None; tree.place_variables as usize],
             nodes: vec![None; tree.slots as usize],
             open: vec![false; tree.slots as usize],
@@ -101,4 +137,20 @@ impl<'a> Flattener<'a> {
             tree,
         }
     }
+}
+
+/// What was declared of the variables of a class.
+fn declared(index: ClassIndex, class: &Class) -> Vec<Arc<Declared>> {
+    let variables = (0..).map(VariableId).zip(&class.variables);
+    let declared = variables.map(|(id, variable)| {
+        Arc::new(Declared {
+            name: variable.name.clone(),
+            unit: variable.unit.clone(),
+            quantity: variable.quantity,
+            choices: variable.choices.clone(),
+            origin: Origin { class: index, variable: id },
+            span: variable.span,
+        })
+    });
+    declared.collect()
 }

@@ -2,9 +2,8 @@
 
 use super::copy::Context;
 use super::facts::Becomes;
-use super::tree::prefixed;
 use super::{FlattenError, Flattener};
-use sophy_ir::{Allowed, ClassIndex, Leaf, Node, Range, Ranged, Variable, VariableId};
+use sophy_ir::{Allowed, ClassIndex, ComponentIndex, Leaf, Node, Range, Ranged, Variable, VariableId};
 
 impl Flattener<'_> {
     /// The ranges of everything but parameters. Outputs are resolved by now.
@@ -27,8 +26,8 @@ impl Flattener<'_> {
                     }
                     Becomes::Input | Becomes::Port | Becomes::Value(_) => {
                         self.output_row(instance, id)?.map(|value| Ranged::Value {
-                            name: prefixed(&self.tree.name(instance), &variable.name),
-                            unit: variable.unit.clone(),
+                            component: ComponentIndex(instance),
+                            declared: self.declared(at.class, id),
                             value,
                         })
                     }

@@ -11,8 +11,10 @@ pub(super) fn confine_smooth(model: &Model, system: &mut System) {
         return;
     }
     let mut bare = Bare { graph: &mut system.graph, known: HashMap::new() };
-    for z in &mut system.algebraics {
-        z.value.by_location.iter_mut().chain(&mut z.plain.by_location).for_each(|node| bare.strip(node));
+    for z in &system.algebraics {
+        for row in [z.value, z.plain] {
+            system.rows[row.range()].iter_mut().for_each(|node| bare.strip(node));
+        }
     }
     for transition in &mut system.transitions {
         match &mut transition.trigger {

@@ -1,17 +1,17 @@
-//! Which instances there are. Copies refer to their class; names are made when they are needed.
+//! Which instances there are. Copies refer to their class; names are computed.
 
 use super::facts::{Facts, Slot};
-use sophy_ir::{Body, Class, ClassIndex, Composite, Model, Port, VariableId};
+use sophy_ir::{
+    Body, Class, ClassIndex, ComponentIndex, Components, Composite, Members, Model, Port, VariableId,
+};
 
 /// One component of the system, a composite included.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instance {
     pub(super) class: ClassIndex,
     pub(super) place: u32,
-    /// The composite that holds it, and which copy of which member of it.
+    /// The composite that holds it.
     pub(super) parent: Option<u32>,
-    pub(super) member: u32,
-    pub(super) copy: u32,
     /// Where its slots begin.
     pub(super) base: u32,
     /// Where the members of a composite begin among the instances.
@@ -35,6 +35,8 @@ pub(super) struct Tree<'a> {
     pub(super) model: &'a Model,
     facts: &'a [Facts],
     pub(super) instances: Vec<Instance>,
+    /// Their names.
+    pub(super) components: Components,
     /// Instances in the order in which they are written, members after their composite.
     pub(super) order: Vec<u32>,
     pub(super) places: Vec<Place>,
@@ -51,6 +53,7 @@ impl<'a> Tree<'a> {
             model,
             facts,
             instances: Vec::new(),
+            components: Components::default(),
             order: Vec::new(),
             places: Vec::new(),
             slots: 0,
@@ -91,7 +94,12 @@ impl<'a> Tree<'a> {
     }
 
     fn grow_instances(&mut self) {
-        self.add_instance(self.model.root, 0, None, 0, 0);
+        self.add_instance(self.model.root, 0, None);
+        let members = |class: &Class| match &class.body {
+            Body::Composite(composite) => Members::of(composite),
+            _ => Members::default(),
+        };
+        let members: Vec<Members> = self.model.classes.iter().map(members).collect();
         let mut pending = vec![0];
         while let Some(next) = pending.pop() {
             self.order.push(next);
@@ -99,21 +107,21 @@ impl<'a> Tree<'a> {
             let Some(composite) = self.composite(instance.class) else { continue };
             let first = self.instances.len() as u32;
             self.instances[next as usize].children = first;
+            self.components.hold(first, ComponentIndex(next), members[instance.class.0 as usize].clone());
             let places = self.places[instance.place as usize].children;
             for (member, one) in composite.members.iter().enumerate() {
-                for copy in 0..one.copies() {
-                    let member = member as u32;
-                    self.add_instance(one.class, places + member, Some(next), member, copy);
+                for _ in 0..one.copies() {
+                    self.add_instance(one.class, places + member as u32, Some(next));
                 }
             }
             pending.extend((first..self.instances.len() as u32).rev());
         }
     }
 
-    fn add_instance(&mut self, class: ClassIndex, place: u32, parent: Option<u32>, member: u32, copy: u32) {
+    fn add_instance(&mut self, class: ClassIndex, place: u32, parent: Option<u32>) {
         let base = self.slots;
         self.slots += self.facts[class.0 as usize].slots();
-        self.instances.push(Instance { class, place, parent, member, copy, base, children: 0 });
+        self.instances.push(Instance { class, place, parent, base, children: 0 });
     }
 
     pub(super) fn instance(&self, instance: u32) -> Instance {
@@ -155,18 +163,15 @@ impl<'a> Tree<'a> {
         }
     }
 
+    /// The composite that holds an instance, and which copy of which member of it that is.
+    pub(super) fn held_as(&self, instance: u32) -> Option<(u32, u32, u32)> {
+        let (member, copy) = self.components.place(ComponentIndex(instance))?;
+        Some((self.instance(instance).parent?, member, copy))
+    }
+
     /// `a.b[2]`, or nothing for the root.
     pub(super) fn name(&self, instance: u32) -> String {
-        let mut parts = Vec::new();
-        let mut at = self.instance(instance);
-        while let Some(parent) = at.parent {
-            if let Some(composite) = self.composite(self.instance(parent).class) {
-                parts.push(composite.members[at.member as usize].copy_name(at.copy));
-            }
-            at = self.instance(parent);
-        }
-        parts.reverse();
-        parts.join(".")
+        self.components.name(ComponentIndex(instance))
     }
 
     /// `a.b`, the same for all copies.

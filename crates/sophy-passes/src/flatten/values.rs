@@ -3,13 +3,15 @@
 //! definition if that is the same in all locations, else an algebraic variable.
 
 use super::conditions::as_number;
-use super::facts::{Becomes, Slot};
+use super::facts::{Becomes, Definition, Slot};
 use super::{FlattenError, Flattener, LoopEquation};
 use sophy_diagnostics::Span;
-use sophy_field::{AlgebraicIndex, AutomatonIndex};
+use sophy_field::AlgebraicIndex;
 use sophy_ir::{
-    Algebraic, Body, Leaf, NodeId, Origin, Output, Row, Sources, State, VariableId, VariableKind, Wire,
+    Algebraic, Body, ClassIndex, ComponentIndex, Declared, Leaf, NodeId, Output, Row, Sources, State,
+    VariableId, VariableKind, Wire,
 };
+use std::sync::Arc;
 
 /// A slot of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +26,6 @@ impl<'a> Flattener<'a> {
         for &instance in &self.tree.order {
             let (class, facts) = (self.tree.class(instance), self.tree.facts(instance));
             let is_root = self.tree.instance(instance).parent.is_none();
-            let mut name = None;
             for (position, variable) in class.variables.iter().enumerate() {
                 let (id, becomes) = (VariableId(position as u32), facts.becomes[position]);
                 if let Becomes::Value(value) = becomes {
@@ -38,16 +39,9 @@ impl<'a> Flattener<'a> {
                     continue;
                 }
                 let Some(value) = self.output_row(instance, id)? else { continue };
-                let name = name.get_or_insert_with(|| self.tree.name(instance));
-                self.system.outputs.push(Output {
-                    name: super::tree::prefixed(name, &variable.name),
-                    unit: variable.unit.clone(),
-                    quantity: variable.quantity,
-                    choices: variable.choices.clone(),
-                    view: !is_output,
-                    value,
-                    origin: Origin { class: self.tree.instance(instance).class, variable: id },
-                });
+                let declared = self.declared(self.tree.instance(instance).class, id);
+                let component = ComponentIndex(instance);
+                self.system.outputs.push(Output { component, declared, view: !is_output, value });
             }
         }
         Ok(())
@@ -56,17 +50,17 @@ impl<'a> Flattener<'a> {
     pub(super) fn output_row(&mut self, instance: u32, id: VariableId) -> Result<Option<Row>, FlattenError> {
         let facts = self.tree.facts(instance);
         Ok(match facts.of(id) {
-            Becomes::Value(value) => Some(self.value_row(instance, value)),
+            Becomes::Value(value) => {
+                let (nodes, spans) = self.value_nodes(instance, value);
+                Some(self.system.row(self.owner(instance), &nodes, spans))
+            }
             Becomes::Nothing | Becomes::Parameter(_) => None,
             _ => {
                 let node = self.resolve(instance, id.0)?;
                 let node = as_number(&mut self.system.graph, node);
                 let locations = self.locations_of_owner(instance);
-                Some(Row {
-                    owner: self.owner(instance),
-                    by_location: vec![node; locations],
-                    spans: vec![None; locations],
-                })
+                let owner = self.owner(instance);
+                Some(self.system.row(owner, &vec![node; locations], Row::NOWHERE))
             }
         })
     }
@@ -80,59 +74,68 @@ impl<'a> Flattener<'a> {
         owner.map_or(1, |owner| self.tree.facts(owner).locations)
     }
 
-    /// A value location by location, as numbers.
-    fn value_row(&mut self, instance: u32, value: u32) -> Row {
+    /// A value location by location, as numbers, and where that stands.
+    fn value_nodes(&mut self, instance: u32, value: u32) -> (Vec<NodeId>, u32) {
         let facts = self.tree.facts(instance);
-        let mut row = Row {
-            owner: self.owner(instance),
-            by_location: Vec::with_capacity(facts.locations),
-            spans: Vec::with_capacity(facts.locations),
-        };
+        let mut nodes = Vec::with_capacity(facts.locations);
         let base = self.tree.instance(instance).base;
         for location in 0..facts.locations as u32 {
             let node = self.nodes[(base + facts.inside(value, location)) as usize];
             let node = node.unwrap_or_else(|| self.nothing());
-            row.by_location.push(as_number(&mut self.system.graph, node));
-            let definition = facts.definitions[location as usize * facts.values.len() + value as usize];
-            row.spans.push(definition.and_then(|(_, span)| span));
+            nodes.push(as_number(&mut self.system.graph, node));
         }
-        row
+        let definitions = self.spans_of(self.tree.instance(instance).class) + facts.rates.len() as u32;
+        (nodes, definitions + value * facts.locations as u32)
+    }
+
+    /// Where the spans of a class begin: those of its rates, state by state, then those of its values.
+    fn spans_of(&mut self, class: ClassIndex) -> u32 {
+        let (facts, spans) = (self.tree.class_facts(class), &mut self.system.spans);
+        *self.first_span[class.0 as usize].get_or_insert_with(|| {
+            let first = spans.len() as u32;
+            let mut add = |definitions: &[Definition], count: usize| {
+                for one in 0..count {
+                    let of_one = definitions.iter().skip(one).step_by(count);
+                    spans.extend(of_one.map(|definition| definition.and_then(|(_, span)| span)));
+                }
+            };
+            add(&facts.rates, facts.states.len());
+            add(&facts.definitions, facts.values.len());
+            first
+        })
     }
 
     /// Rates and initial values.
     pub(super) fn states(&mut self) -> Result<(), FlattenError> {
-        let mut next = 0;
+        let (mut next, mut nodes) = (0, Vec::new());
         for &instance in &self.tree.order {
+            let at = self.tree.instance(instance);
             let (class, facts) = (self.tree.class(instance), self.tree.facts(instance));
             for &id in facts.inputs_read.iter().chain(&facts.values_read) {
                 self.resolve(instance, id.0)?;
             }
             let outside = self.context(instance, None);
             for (k, &id) in facts.states.iter().enumerate() {
-                let mut row = Row {
-                    owner: self.owner(instance),
-                    by_location: Vec::with_capacity(facts.locations),
-                    spans: Vec::with_capacity(facts.locations),
-                };
+                nodes.clear();
                 for location in 0..facts.locations {
                     // What is not defined in a location rests.
-                    let (node, span) = match facts.rates[location * facts.states.len() + k] {
-                        Some((right, span)) => {
+                    nodes.push(match facts.rates[location * facts.states.len() + k] {
+                        Some((right, _)) => {
                             let context = self.context(instance, Some(location as u32));
-                            (self.number(context, right), span)
+                            self.number(context, right)
                         }
-                        None => (self.system.graph.number(0.0), None),
-                    };
-                    row.by_location.push(node);
-                    row.spans.push(span);
+                        None => self.system.graph.number(0.0),
+                    });
                 }
                 let initial = match class.variable(id).kind {
                     VariableKind::State(initial) | VariableKind::Mode(initial) => initial,
                     _ => None,
                 };
                 let initial = initial.map(|node| self.number(outside, node));
+                let spans = self.spans_of(at.class) + (k * facts.locations) as u32;
+                let rate = self.system.row(self.owner(instance), &nodes, spans);
                 let state: &mut State = &mut self.system.states[next];
-                state.rate = row;
+                state.rate = rate;
                 state.initial = initial;
                 next += 1;
             }
@@ -233,8 +236,10 @@ impl<'a> Flattener<'a> {
         }
         match facts.of(VariableId(place.slot)) {
             Becomes::Value(value) => {
-                let row = self.value_row(place.instance, value);
-                self.seen_from_outside(row, || self.tree.full_name(place.instance, VariableId(place.slot)))
+                let (nodes, spans) = self.value_nodes(place.instance, value);
+                let class = self.tree.instance(place.instance).class;
+                let declared = self.declared(class, VariableId(place.slot));
+                self.seen_from_outside(&nodes, spans, place.instance, declared)
             }
             Becomes::Parameter(_) => {
                 let context = self.context(place.instance, None);
@@ -247,12 +252,21 @@ impl<'a> Flattener<'a> {
     }
 
     /// A row as others read it: its only expression, or an algebraic variable.
-    fn seen_from_outside(&mut self, row: Row, name: impl Fn() -> String) -> NodeId {
-        match row.by_location.first() {
-            Some(&only) if row.is_constant() => only,
+    fn seen_from_outside(
+        &mut self,
+        nodes: &[NodeId],
+        spans: u32,
+        instance: u32,
+        declared: Arc<Declared>,
+    ) -> NodeId {
+        match nodes.first() {
+            Some(&only) if nodes.iter().all(|&node| node == only) => only,
             _ => {
                 let index = AlgebraicIndex::new(self.system.algebraics.len());
-                self.system.algebraics.push(Algebraic { name: name(), value: row.clone(), plain: row });
+                let component = ComponentIndex(instance);
+                let owner = self.owner(instance);
+                let [value, plain] = [(); 2].map(|()| self.system.row(owner, nodes, spans));
+                self.system.algebraics.push(Algebraic { component, declared, value, plain });
                 self.system.graph.leaf(Leaf::Algebraic(index))
             }
         }
@@ -263,12 +277,10 @@ impl<'a> Flattener<'a> {
         if let Some(&known) = self.location_numbers.get(&instance) {
             return known;
         }
-        let owner: AutomatonIndex = self.owner(instance);
-        let locations = self.tree.facts(instance).locations;
-        let by_location = (1..=locations).map(|n| self.system.graph.number(n as f64)).collect();
-        let row = Row { owner, by_location, spans: vec![None; locations] };
-        let node = self
-            .seen_from_outside(row, || super::tree::prefixed(&self.tree.name(instance), "location_index"));
+        let locations = 1..=self.tree.facts(instance).locations;
+        let nodes: Vec<NodeId> = locations.map(|n| self.system.graph.number(n as f64)).collect();
+        let declared = Arc::clone(&self.location_index);
+        let node = self.seen_from_outside(&nodes, Row::NOWHERE, instance, declared);
         self.location_numbers.insert(instance, node);
         node
     }

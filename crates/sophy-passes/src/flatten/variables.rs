@@ -2,9 +2,8 @@
 
 use super::Flattener;
 use super::facts::Becomes;
-use super::tree::prefixed;
 use sophy_field::{AutomatonIndex, InputIndex, StateIndex};
-use sophy_ir::{Body, Input, Leaf, Origin, Row, State, VariableId, VariableKind};
+use sophy_ir::{Body, ComponentIndex, Input, Leaf, Row, State, VariableId, VariableKind};
 
 impl Flattener<'_> {
     pub(super) fn variables(&mut self) {
@@ -13,39 +12,28 @@ impl Flattener<'_> {
         for &instance in &self.tree.order {
             let (at, class, facts) =
                 (self.tree.instance(instance), self.tree.class(instance), self.tree.facts(instance));
-            let name = self.tree.name(instance);
-            let owner = self.owner(instance);
+            let (component, owner) = (ComponentIndex(instance), self.owner(instance));
             for (position, (variable, becomes)) in class.variables.iter().zip(&facts.becomes).enumerate() {
                 let slot = at.base as usize + position;
-                let origin = Origin { class: at.class, variable: VariableId(position as u32) };
+                let declared = |flattener: &Self| flattener.declared(at.class, VariableId(position as u32));
                 let leaf = match becomes {
                     Becomes::State(_) => {
                         let index = StateIndex::new(self.system.states.len());
                         let continuous = matches!(class.body, Body::Automaton(_))
                             && matches!(variable.kind, VariableKind::State(_));
                         self.system.states.push(State {
-                            name: prefixed(&name, &variable.name),
-                            unit: variable.unit.clone(),
-                            quantity: variable.quantity,
+                            component,
+                            declared: declared(self),
                             discrete: !continuous,
-                            choices: variable.choices.clone(),
                             initial: None,
                             sign_of: None,
-                            origin,
-                            rate: Row { owner, by_location: Vec::new(), spans: Vec::new() },
-                            span: variable.span,
+                            rate: Row { owner, first: 0, locations: 0, spans: Row::NOWHERE },
                         });
                         Leaf::State(index)
                     }
                     Becomes::Input if self.wires[slot].is_none() => {
                         let index = InputIndex::new(self.system.inputs.len());
-                        self.system.inputs.push(Input {
-                            name: prefixed(&name, &variable.name),
-                            unit: variable.unit.clone(),
-                            quantity: variable.quantity,
-                            origin,
-                            span: variable.span,
-                        });
+                        self.system.inputs.push(Input { component, declared: declared(self) });
                         Leaf::Input(index)
                     }
                     _ => continue,

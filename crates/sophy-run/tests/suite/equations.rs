@@ -249,9 +249,9 @@ impl Case {
         let rates = e.rates.iter().zip(&self.system.states);
         let watches = e.watches.iter().zip(&self.system.watches);
         rates
-            .map(|(code, state)| (e.selected(*code, &HERE), state.rate.by_location[0]))
+            .map(|(code, state)| (e.selected(*code, &HERE), self.system.nodes(state.rate)[0]))
             .chain(watches.map(|(code, watch)| (&code.formula, watch.difference)))
-            .chain([(e.selected(e.outputs[0], &HERE), self.system.outputs[0].value.by_location[0])])
+            .chain([(e.selected(e.outputs[0], &HERE), self.system.nodes(self.system.outputs[0].value)[0])])
             .collect()
     }
 
@@ -341,7 +341,7 @@ proptest! {
             }
         }
         for state in 0..2 {
-            let node = case.system.states[state].rate.by_location[0];
+            let node = case.system.nodes(case.system.states[state].rate)[0];
             let expected = case.value(node, &point.sources);
             for orders in 1..=WIDTH {
                 let [value, ..] = case.rate(state, &mut case.memory(&jets), orders);
@@ -354,8 +354,8 @@ proptest! {
     #[test]
     fn lifted_rates_have_the_value_as_written(steps in steps(24), point in tame_point()) {
         let case = case(&steps, point, true);
-        let written = case.value(case.system.outputs[0].value.by_location[0], &point.sources);
-        let lifted = case.value(case.system.states[0].rate.by_location[0], &point.sources);
+        let written = case.value(case.system.nodes(case.system.outputs[0].value)[0], &point.sources);
+        let lifted = case.value(case.system.nodes(case.system.states[0].rate)[0], &point.sources);
         prop_assert!(written == lifted, "{written} {lifted}");
     }
 
@@ -369,7 +369,7 @@ proptest! {
         let case = case(&steps, point, true);
         let jets = jets(&point, &motion, 0.0);
         // The motion written into the expression: z(t₀ + s) as a function of s.
-        let root = case.system.outputs[0].value.by_location[0];
+        let root = case.system.nodes(case.system.outputs[0].value)[0];
         let mut graph = Graph::default();
         let s = graph.leaf(Leaf::Time);
         let moved = graph.import(&case.system.graph, root, &mut |graph, leaf| {

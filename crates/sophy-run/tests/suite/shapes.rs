@@ -35,7 +35,7 @@ fn play(system: &System, sharing: Sharing, until: f64) -> Trace {
         evaluate(&system.graph, s.initial.expect("given"), &mut |_| Value::Real(f64::NAN)).real()
     };
     let states: Vec<f64> = system.states.iter().map(initial).collect();
-    let locations: Vec<_> = system.automata.iter().map(|a| a.initial).collect();
+    let locations: Vec<_> = system.automata.iter().map(|a| a.kind.initial).collect();
     let start = Start { time: 0.0, states: &states, inputs: &[], locations: &locations };
     engine.start(&equations, &start, &mut journal).expect("starts");
     let mut time = 0.0;

@@ -45,6 +45,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// A state steps although its band is not left: it begins anew with q = x.
+    #[cold]
     pub(super) fn step_from_x(
         &mut self,
         e: &Equations,
@@ -61,7 +62,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// q of a state follows these coefficients from now on, and what depends on it is evaluated.
-    #[inline]
+    #[inline(always)]
     fn step_to(
         &mut self,
         e: &Equations,
@@ -77,10 +78,16 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &entry in e.entries(&e.influence[i]) {
             self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
         }
+        if self.joined.is_empty() { Ok(()) } else { self.tell_joined(e, t, journal) }
+    }
+
+    /// States that were put at rest with the one that steps have stepped, too.
+    #[cold]
+    fn tell_joined(&mut self, e: &Equations, t: f64, journal: &mut Journal) -> Result<(), Failed> {
         while let Some(state) = self.joined.pop() {
             self.tell_step(state.position(), t, journal);
             for &entry in e.entries(&e.influence[state.position()]) {
-                self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+                self.evaluate_entry(e, entry, t, journal)?;
             }
         }
         Ok(())
@@ -111,7 +118,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         self.statistics.refreshes += 1;
         self.refreshed = i;
         for &entry in e.entries(&e.own[i]) {
-            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+            self.evaluate_entry(e, entry, t, journal)?;
         }
         self.refreshed = usize::MAX;
         Ok(())
@@ -129,7 +136,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// Evaluates the rates of a block at `t` (algorithm 3.2).
-    #[inline]
+    #[inline(always)]
     fn evaluate(
         &mut self,
         e: &Equations,
@@ -168,7 +175,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// δ_ext: a new rate arrives (algorithm 3.1). `rate` holds f, ḟ, ½f̈ along q, as far as they count.
-    #[inline]
+    #[inline(always)]
     fn set_rate(
         &mut self,
         e: &Equations,
@@ -214,7 +221,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     /// x, whose rate was evaluated at `evaluated`, leaves the band after `delay`.
-    #[inline]
+    #[inline(always)]
     fn due_in(&mut self, i: usize, t: f64, evaluated: f64, delay: f64) {
         let mut next = t + delay;
         if self.settings.implicit {

@@ -70,11 +70,11 @@ pub struct Reaction {
 }
 
 pub(super) fn automata(model: &Model, census: &Census, system: &System) -> Vec<AutomatonDescription> {
-    let flat: HashMap<&str, &Automaton> = system
+    let flat: HashMap<String, &Automaton> = system
         .automata
         .iter()
-        .filter(|automaton| automaton.role == Role::Component)
-        .map(|automaton| (automaton.name.as_str(), automaton))
+        .filter(|automaton| automaton.kind.role == Role::Component)
+        .map(|automaton| (automaton.name(system), automaton))
         .collect();
     let mut found = Vec::new();
     for (class, of_class) in model.classes.iter().zip(&census.of_class) {
@@ -142,9 +142,9 @@ impl Text<'_> {
 
     /// Name and destination of the transitions of a location that can be run: whether they are affine.
     fn affine(&self, location: usize) -> HashMap<(&str, usize), bool> {
-        let flat = self.flat.and_then(|automaton| automaton.locations.get(location));
-        let transitions = flat.map_or(&[][..], |location| &location.transitions);
-        let known = transitions.iter().filter_map(|index| self.system.transitions.get(index.position()));
+        let location = sophy_field::LocationIndex::new(location);
+        let transitions = self.flat.into_iter().flat_map(|automaton| automaton.outgoing(location));
+        let known = transitions.filter_map(|index| self.system.transitions.get(index.position()));
         let known = known.map(|transition| {
             let key = (transition.name.as_str(), transition.destination.position());
             (key, is_affine(self.system, transition.trigger.guard()))

@@ -69,12 +69,13 @@ impl<'a> Coupling<'a> {
         let mut search = Search::new(self.system);
         let mut rows = Vec::with_capacity(self.states.len());
         for &state in &self.states {
-            let row = &self.system.states[state].rate;
-            let all = search.reads(&row.by_location);
-            let each = if row.is_constant() {
+            let row = self.system.states[state].rate;
+            let nodes = self.system.nodes(row);
+            let all = search.reads(nodes);
+            let each = if self.system.is_constant(row) {
                 Vec::new()
             } else {
-                row.by_location.iter().map(|&node| search.reads(&[node])).collect()
+                nodes.iter().map(|&node| search.reads(&[node])).collect()
             };
             if search.work > MOST_WORK {
                 return None;
@@ -92,10 +93,10 @@ impl<'a> Coupling<'a> {
             let state = &self.system.states[state];
             let differs = each.windows(2).any(|pair| pair[0] != pair[1]);
             let owner = self.system.automata.get(state.rate.owner.position());
-            let locations = owner.map_or(&[][..], |owner| &owner.locations);
+            let locations = owner.map_or(&[][..], |owner| &owner.kind.locations);
             let by_location = locations.iter().zip(each).filter(|_| differs);
             Dependency {
-                state: state.name.clone(),
+                state: state.name(self.system),
                 reads: names(all),
                 by_location: by_location
                     .map(|(location, reads)| (location.name.clone(), names(reads)))
@@ -137,8 +138,8 @@ impl<'a> Coupling<'a> {
         let system = self.system;
         let first_algebraic = self.states.len();
         let mut search = Search::new(system);
-        let mut reads = |row: &Row| -> Vec<usize> {
-            let leaves = search.direct(&row.by_location).into_iter();
+        let mut reads = |row: Row| -> Vec<usize> {
+            let leaves = search.direct(system.nodes(row)).into_iter();
             leaves
                 .filter_map(|leaf| match leaf {
                     Leaf::State(state) => self.column.get(state.position()).copied().flatten(),
@@ -147,12 +148,12 @@ impl<'a> Coupling<'a> {
                 })
                 .collect()
         };
-        let rates = self.states.iter().map(|&state| &system.states[state].rate);
-        let rows = rates.chain(system.algebraics.iter().map(|z| &z.value));
+        let rates = self.states.iter().map(|&state| system.states[state].rate);
+        let rows = rates.chain(system.algebraics.iter().map(|z| z.value));
         let arcs: Vec<Vec<usize>> = rows.map(&mut reads).collect();
         let name = |node: usize| match self.states.get(node) {
-            Some(&state) => system.states[state].name.clone(),
-            None => system.algebraics.get(node - first_algebraic).map(|z| z.name.clone()).unwrap_or_default(),
+            Some(&state) => system.states[state].name(system),
+            None => system.algebraics.get(node - first_algebraic).map(|z| z.name(system)).unwrap_or_default(),
         };
         let mut knots: Vec<Vec<usize>> =
             strongly_connected(&arcs).into_iter().filter(|component| component.len() > 1).collect();
@@ -204,7 +205,8 @@ impl<'a> Search<'a> {
                 Node::Leaf(Leaf::Algebraic(z)) if through => {
                     let seen = std::mem::replace(&mut self.algebraics[z.position()], self.mark);
                     if seen != self.mark {
-                        pending.extend_from_slice(&self.system.algebraics[z.position()].value.by_location);
+                        pending
+                            .extend_from_slice(self.system.nodes(self.system.algebraics[z.position()].value));
                     }
                 }
                 Node::Leaf(leaf @ (Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_))) => {

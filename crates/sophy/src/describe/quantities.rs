@@ -1,5 +1,5 @@
 use serde::Serialize;
-use sophy_ir::{Allowed, Leaf, Model, NodeId, Origin, System, Value, Variable, evaluate};
+use sophy_ir::{Allowed, Declared, Leaf, Model, NodeId, Origin, System, Value, Variable, evaluate};
 
 /// A named quantity.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -42,15 +42,19 @@ impl<'a> Values<'a> {
 
     pub(super) fn state(&self, state: &sophy_ir::State) -> Quantity {
         let initial = state.initial.map(|node| self.of(node));
-        self.quantity(&state.name, state.unit.as_ref(), state.origin, initial)
+        self.declared(state.name(self.system), &state.declared, initial)
     }
 
     pub(super) fn input(&self, input: &sophy_ir::Input) -> Quantity {
-        self.quantity(&input.name, input.unit.as_ref(), input.origin, None)
+        self.declared(input.name(self.system), &input.declared, None)
     }
 
     pub(super) fn output(&self, output: &sophy_ir::Output) -> Quantity {
-        self.quantity(&output.name, output.unit.as_ref(), output.origin, None)
+        self.declared(output.name(self.system), &output.declared, None)
+    }
+
+    fn declared(&self, name: String, declared: &Declared, value: Option<f64>) -> Quantity {
+        self.quantity(&name, declared.unit.as_ref(), declared.origin, value)
     }
 
     pub(super) fn constants(&self) -> Vec<Quantity> {

@@ -38,7 +38,8 @@ fn compare(case: &Case, simulation: &Simulation) -> Measured {
     let events = simulation.events.iter().filter(|event| is_meant(&event.component));
     let events: Vec<f64> = events.map(|event| event.time).collect();
     let system = sophy_passes::lower(&case.model).expect("a system");
-    let position = |name: &str| system.states.iter().position(|state| state.name == name).expect("a state");
+    let position =
+        |name: &str| system.states.iter().position(|state| state.name(&system) == name).expect("a state");
     let (stop, count) = (case.experiment.stop, events.len());
     let reached = simulation.report.outcome == Outcome::Reached;
     let pairs = events.iter().zip(&case.events);
