@@ -98,7 +98,7 @@ impl Journal {
         match (self.entries.last_mut(), record) {
             (Some(last), Record::Step { time, .. }) if last.time() == time => {}
             (Some(last @ Record::Step { .. }), Record::Segment { time, .. }) if last.time() == time => {
-                *last = record
+                *last = record;
             }
             _ => self.entries.push(record),
         }
