@@ -7,6 +7,7 @@ use sophy_diagnostics::{MemoryWorld, Sources};
 use sophy_ir::Model;
 use sophy_passes::{PIPELINE, flatten};
 use sophy_run::{Experiment, Quantum, QuantumRule, Run};
+use sophy_testkit::cells::ring_text;
 use std::fmt::Write;
 use std::sync::Arc;
 use std::time::Instant;
@@ -44,7 +45,7 @@ impl Told {
 pub fn bench(only: Option<&str>) -> Vec<Told> {
     let mut texts = Vec::new();
     texts.extend([200, 2000].map(|copies| ("varied components", varied(copies), false)));
-    texts.extend([333, 3333, 33_333, 333_333].map(|cells| ("copies", ring(cells), true)));
+    texts.extend([333, 3333, 33_333, 333_333].map(|cells| ("copies", ring_text(cells), true)));
     texts.push(("distinct equations", distinct(100_000), true));
     texts.retain(|(name, ..)| only.is_none_or(|only| name.starts_with(only)));
     texts.iter().map(|(name, text, ready)| median(name, text, *ready)).collect()
@@ -107,51 +108,6 @@ fn timed<R>(name: &'static str, stages: &mut Vec<(&'static str, f64)>, stage: im
     let result = stage();
     stages.push((name, 1e3 * begin.elapsed().as_secs_f64()));
     result
-}
-
-/// A ring of cells of three states each.
-fn ring(cells: usize) -> String {
-    format!(
-        "\
-%% One of many: an oscillator that its neighbour pulls at, and a mean of it.
-CTC Cell is
-interface
-  input(pull, signal);
-  output(x, signal);
-  knob(k);
-end interface;
-body
-  declarations
-    state x := 1;
-    state v := 0;
-    state mean := 0;
-  end declarations;
-  dynamics
-    der(x) = v;
-    der(v) = k*(pull - x) - 0.1*v - x;
-    der(mean) = (x - mean)/T;
-  end dynamics;
-  assignments
-    k : 0.2;
-    T : 5;
-  end assignments;
-end body;
-
-SYSTEM Ring is
-body
-  components
-    cell : Cell[{cells}];
-  end components;
-  connections
-    for i in 1..{last} loop
-      cell[i].x -> cell[i + 1].pull;
-    end loop;
-    cell[{cells}].x -> cell[1].pull;
-  end connections;
-end body;
-",
-        last = cells - 1
-    )
 }
 
 /// One component, each of whose equations has another form.

@@ -13,7 +13,6 @@ mod case;
 mod contest;
 mod figures;
 mod floor;
-mod fronts;
 mod hopper;
 mod language;
 mod measure;

@@ -1,7 +1,6 @@
 //! `scale`: what a step costs in large systems, and what a large system costs that is mostly at rest. The systems of
 //! several sizes are arrays of components (`models`).
 
-use crate::fronts::Fronts;
 use crate::language;
 use crate::measure::{medians, timed};
 use crate::memory;
@@ -77,9 +76,10 @@ fn cells(text: &str, count: usize) -> Model {
 /// The same number of states, more and more of them active.
 pub fn activity() -> Vec<Scaled> {
     let mut rows = Vec::new();
+    let model = cells(include_str!("../models/reaction.hsml"), CELLS);
     for fronts in [1, 2, 4, 8, 16] {
-        let model = Fronts { cells: CELLS, fronts }.model();
-        let row = measure(FRONT, &model, &travelling(), u64::MAX);
+        let experiment = Experiment { initial: stripes(fronts), ..travelling() };
+        let row = measure(FRONT, &model, &experiment, u64::MAX);
         rows.push(Scaled { fronts: Some(fronts), ..row });
     }
     rows
@@ -98,6 +98,14 @@ fn experiment(method: Method, quantum: f64) -> Experiment {
 /// In half a second a front travels through 500 cells.
 fn travelling() -> Experiment {
     Experiment { stop: 0.5, ..experiment(Method::Liqss2, 1e-3) }
+}
+
+/// Cells of 1 and cells of 0, with so many edges between them; the first stands behind three tenths of its share of the
+/// cells. One front is as fast and as steep as another: with u, 1 − u is a solution, too.
+fn stripes(fronts: usize) -> Vec<(String, f64)> {
+    let passed = |cell: usize| (10 * cell * fronts + 7 * CELLS) / (10 * CELLS);
+    let ones = (0..CELLS).filter(|&cell| passed(cell).is_multiple_of(2));
+    ones.map(|cell| (format!("cell[{}].u", cell + 1), 1.0)).collect()
 }
 
 /// Initial values that differ from state to state.

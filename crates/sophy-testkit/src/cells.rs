@@ -1,4 +1,4 @@
-//! Large flat systems built directly, as many states as one likes: for tests and measurements of scale.
+//! Large systems, as many states as one likes: for tests and measurements of scale.
 
 use sophy_field::{AutomatonIndex, LocationIndex, ParameterIndex, StateIndex, TransitionIndex};
 use sophy_ir::{
@@ -31,6 +31,51 @@ fn state(component: u32, declared: &Arc<Declared>, initial: NodeId, rate: Row) -
         sign_of: None,
         rate,
     }
+}
+
+/// A ring of cells of three states each in HSML, as an array of components.
+pub fn ring_text(cells: usize) -> String {
+    format!(
+        "\
+%% One of many: an oscillator that its neighbour pulls at, and a mean of it.
+CTC Cell is
+interface
+  input(pull, signal);
+  output(x, signal);
+  knob(k);
+end interface;
+body
+  declarations
+    state x := 1;
+    state v := 0;
+    state mean := 0;
+  end declarations;
+  dynamics
+    der(x) = v;
+    der(v) = k*(pull - x) - 0.1*v - x;
+    der(mean) = (x - mean)/T;
+  end dynamics;
+  assignments
+    k : 0.2;
+    T : 5;
+  end assignments;
+end body;
+
+SYSTEM Ring is
+body
+  components
+    cell : Cell[{cells}];
+  end components;
+  connections
+    for i in 1..{last} loop
+      cell[i].x -> cell[i + 1].pull;
+    end loop;
+    cell[{cells}].x -> cell[1].pull;
+  end connections;
+end body;
+",
+        last = cells - 1
+    )
 }
 
 /// A ring of `count` equal cells with three states each, every one a component of its own.

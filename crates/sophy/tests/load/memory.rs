@@ -1,6 +1,7 @@
 //! What a state costs in memory, from HSML to a run that is ready.
 
 use sophy::{Experiment, MemoryWorld, Method, Quantum, QuantumRule, load};
+use sophy_testkit::cells::ring_text;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::path::Path;
@@ -52,41 +53,10 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-const CELL: &str = "\
-CTC Cell is
-interface
-  input(pull, signal);
-  output(x, signal);
-  knob(k);
-end interface;
-body
-  declarations
-    state x := 1;
-    state v := 0;
-    state mean := 0;
-  end declarations;
-  dynamics
-    der(x) = v;
-    der(v) = k*(pull - x) - 0.1*v - x;
-    der(mean) = (x - mean)/T;
-  end dynamics;
-  assignments
-    k : 0.2;
-    T : 5;
-  end assignments;
-end body;
-";
-
 /// Bytes per state of a ring of cells, held and at the peak.
 fn bytes(method: Method) -> [isize; 2] {
-    const CELLS: isize = 20_000;
-    let text = format!(
-        "{CELL}SYSTEM Ring is\nbody\n  components\n    cell : Cell[{CELLS}];\n  end components;\n  connections\n    \
-         for i in 1..{} loop\n      cell[i].x -> cell[i + 1].pull;\n    end loop;\n    cell[{CELLS}].x -> cell[1].pull;\n  \
-         end connections;\nend body;\n",
-        CELLS - 1
-    );
-    let world = MemoryWorld::default().with("ring.hsml", text);
+    const CELLS: usize = 20_000;
+    let world = MemoryWorld::default().with("ring.hsml", ring_text(CELLS));
     let quanta = vec![QuantumRule { pattern: "*".to_owned(), quantum: Quantum::absolute(1e-3) }];
     let experiment = Experiment { method, quanta, ..Experiment::default() };
     let before = LIVE.get();
@@ -95,7 +65,7 @@ fn bytes(method: Method) -> [isize; 2] {
     let system = Arc::new(sophy_passes::lower(&model).unwrap());
     let run = sophy_run::Run::new(system, &experiment).unwrap();
     let states = run.system().states.len() as isize;
-    assert_eq!(states, 3 * CELLS);
+    assert_eq!(states, 3 * CELLS as isize);
     [LIVE.get(), MOST.get()].map(|bytes| (bytes - before) / states)
 }
 
