@@ -32,13 +32,15 @@ impl Owned {
     /// What to evaluate when an automaton changes its location: its own rates, and those of others that read
     /// its algebraic variables.
     pub(crate) fn entries(&self, gather: &mut Gather<'_>, automaton: usize) -> Range<u32> {
+        // One that is entered at the start only is evaluated with all.
+        if !changes(gather.system, automaton) {
+            return 0..0;
+        }
         let mut states = self.states.row(automaton).to_vec();
         for &z in self.algebraics.row(automaton) {
             states.extend(gather.readers(Leaf::Algebraic(z)).iter().map(|reader| reader.state));
         }
-        // One that is entered at the start only needs no programs of its own for that.
-        let stays = gather.system.automata[automaton].kind.locations.iter().all(|l| l.transitions.is_empty());
-        if stays { gather.each_of(states) } else { gather.all_of(states) }
+        gather.all_of(states)
     }
 
     pub(crate) fn automata(&self, gather: &mut Gather<'_>, watching: &Watching) -> Vec<AutomatonCode> {
@@ -48,7 +50,11 @@ impl Owned {
             .map(|(a, automaton)| {
                 let locations = 0..automaton.kind.locations.len();
                 AutomatonCode {
-                    states: self.states.row(a).into(),
+                    states: if changes(gather.system, a) {
+                        self.states.row(a).into()
+                    } else {
+                        Box::default()
+                    },
                     readers: readers.row(a).into(),
                     armed: locations.clone().map(|l| self.armed(gather, a, l).into()).collect(),
                     row_of: locations.map(|l| self.right_hand_sides(gather.system, a, l)).collect(),
@@ -57,9 +63,9 @@ impl Owned {
             .collect()
     }
 
-    /// Which right-hand side each state has in a location; where there is no other, nobody asks.
+    /// Which right-hand side each state has in a location; where it does not change, nobody asks.
     fn right_hand_sides(&self, system: &System, automaton: usize, location: usize) -> Box<[u32]> {
-        if system.automata[automaton].kind.locations.len() == 1 {
+        if !changes(system, automaton) {
             return Box::default();
         }
         let row = |s: &StateIndex| system.at(system.states[s.position()].rate, LocationIndex::new(location));
@@ -83,4 +89,9 @@ impl Owned {
         let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
         gather.incidence.watches_below(rows.chain(guards))
     }
+}
+
+/// Whether an automaton can change its location.
+fn changes(system: &System, automaton: usize) -> bool {
+    system.automata[automaton].kind.locations.iter().any(|location| !location.transitions.is_empty())
 }

@@ -5,8 +5,7 @@ use crate::memory::{Memory, Side};
 use crate::shapes::{RequestIndex, Shapes};
 use rustc_hash::{FxHashMap, FxHasher};
 use sophy_field::{
-    AutomatonIndex, Block, Call, Entry, Formula, LocationIndex, Operand, RowResult, SourceIndex, StateIndex,
-    Table,
+    AutomatonIndex, Call, Entry, Formula, LocationIndex, Operand, SourceIndex, StateIndex, Table,
 };
 use sophy_ir::{Leaf, Linearity, Node, NodeId, Row, System, Watch};
 use std::hash::{Hash, Hasher};
@@ -23,12 +22,18 @@ pub(crate) struct Gather<'a> {
     pub(crate) memory: Memory,
     pub(crate) shapes: Shapes,
     pub(crate) incidence: Incidence<'a>,
-    pub(crate) blocks: Vec<Block>,
+    pub(crate) blocks: Vec<Rates>,
+    /// Where the blocks of an entry begin: one per location of its owner.
+    pub(crate) groups: Vec<u32>,
     pub(crate) calls: Vec<Call>,
     pub(crate) formulas: Vec<Formula>,
+    /// Sources that blocks read, and sources that formulas read.
+    pub(crate) reads: Vec<SourceIndex>,
     pub(crate) sources: Vec<SourceIndex>,
-    pub(crate) rows: Vec<RowResult>,
+    pub(crate) rows: Vec<Selection>,
+    /// Entries of blocks, and entries of the calls that formulas need.
     pub(crate) entries: Vec<Entry>,
+    pub(crate) before: Vec<Entry>,
     /// Per algebraic variable: the entry of its blocks, and those of its calls, smooth and plain.
     algebraics: [Vec<Option<Entry>>; 3],
     /// Blocks of equal rows are one; by a hash of the rows.
@@ -42,14 +47,47 @@ pub(crate) struct Gather<'a> {
 
 /// What was gathered.
 pub(crate) struct Gathered {
-    pub(crate) memory: Memory,
-    pub(crate) shapes: Shapes,
-    pub(crate) blocks: Vec<Block>,
+    pub(crate) blocks: Vec<Rates>,
+    pub(crate) groups: Vec<u32>,
     pub(crate) calls: Vec<Call>,
     pub(crate) formulas: Vec<Formula>,
+    /// Sources that blocks read, and sources that formulas read.
+    pub(crate) reads: Vec<SourceIndex>,
     pub(crate) sources: Vec<SourceIndex>,
-    pub(crate) rows: Vec<RowResult>,
+    pub(crate) rows: Vec<Selection>,
+    /// Entries of blocks, and entries of the calls that formulas need.
     pub(crate) entries: Vec<Entry>,
+    pub(crate) before: Vec<Entry>,
+    first_bend: Vec<u32>,
+    bends: Vec<bool>,
+}
+
+impl Gathered {
+    /// The rates that are computed together.
+    pub(crate) fn rows_of(&self, rates: &Rates) -> &[Selection] {
+        &self.rows[rates.rows.start as usize..rates.rows.end as usize]
+    }
+
+    /// The sources that they read.
+    pub(crate) fn reads_of(&self, rates: &Rates) -> &[SourceIndex] {
+        &self.reads[rates.reads.start as usize..rates.reads.end as usize]
+    }
+
+    /// Whether a rate bends.
+    pub(crate) fn bends(&self, rate: Selection) -> bool {
+        self.bends[(self.first_bend[rate.state.position()] + rate.location) as usize]
+    }
+}
+
+/// Rates that are evaluated together, of one copy: they become a block.
+#[derive(Clone, Debug)]
+pub(crate) struct Rates {
+    /// What computes them.
+    pub(crate) request: RequestIndex,
+    /// Whose quantised trajectories it reads.
+    pub(crate) reads: Range<u32>,
+    /// The rates; none if it computes an algebraic variable.
+    pub(crate) rows: Range<u32>,
 }
 
 /// A rate in a location of its owner.
@@ -91,11 +129,14 @@ impl<'a> Gather<'a> {
             memory: Memory::new(system, order),
             shapes: Shapes::default(),
             blocks: Vec::new(),
+            groups: Vec::new(),
             calls: Vec::new(),
             formulas: Vec::new(),
+            reads: Vec::new(),
             sources: Vec::new(),
             rows: Vec::new(),
             entries: Vec::new(),
+            before: Vec::new(),
             algebraics: std::array::from_fn(|_| vec![None; system.algebraics.len()]),
             known: FxHashMap::default(),
             first_bend,
@@ -106,9 +147,23 @@ impl<'a> Gather<'a> {
     }
 
     /// What becomes of it; all else is let go.
-    pub(crate) fn finish(self) -> Gathered {
-        let Gather { memory, shapes, blocks, calls, formulas, sources, rows, entries, .. } = self;
-        Gathered { memory, shapes: shapes.finish(), blocks, calls, formulas, sources, rows, entries }
+    pub(crate) fn finish(self) -> (Memory, Shapes, Gathered) {
+        let Gather { memory, shapes, blocks, groups, calls, formulas, .. } = self;
+        let Gather { reads, sources, rows, entries, before, first_bend, bends, .. } = self;
+        let gathered = Gathered {
+            blocks,
+            groups,
+            calls,
+            formulas,
+            reads,
+            sources,
+            rows,
+            entries,
+            before,
+            first_bend,
+            bends,
+        };
+        (memory, shapes.finish(), gathered)
     }
 
     /// The rates that read a leaf, directly or through algebraic variables.
@@ -126,12 +181,6 @@ impl<'a> Gather<'a> {
     pub(crate) fn all_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
         let selected = self.rates_of(states);
         self.entries_for(selected, MOST_ROWS)
-    }
-
-    /// The same, one state after the other.
-    pub(crate) fn each_of(&mut self, states: impl IntoIterator<Item = StateIndex>) -> Range<u32> {
-        let selected = self.rates_of(states);
-        self.entries_for(selected, 0)
     }
 
     fn rates_of(&self, states: impl IntoIterator<Item = StateIndex>) -> Vec<Selection> {
@@ -180,26 +229,27 @@ impl<'a> Gather<'a> {
             }
             hash = hash.wrapping_add(1);
         }
-        let entry = Entry { owner, first: self.blocks.len() as u32 };
+        let entry = self.group(owner);
         let mut rest = selected;
         for location in 0..self.system.automata[owner.position()].kind.locations.len() as u32 {
             let (here, others) = rest.split_at(rest.partition_point(|s| s.location == location));
             rest = others;
             let nodes: Vec<NodeId> = here.iter().map(|s| rate(self.system, *s)).collect();
-            let call = self.request(Side::Quantised, &nodes, None);
-            let sources = sources(self.shapes.leaves(), self.memory.layout, &mut self.sources);
+            let request = self.ask(Side::Quantised, &nodes, None);
+            let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.reads);
             let start = self.rows.len() as u32;
-            self.rows.extend(here.iter().map(|s| RowResult {
-                state: s.state,
-                result: RESULT,
-                bends: self.bends[(self.first_bend[s.state.position()] + s.location) as usize],
-            }));
-            let rows = start..self.rows.len() as u32;
-            let bends = self.rows[start as usize..].iter().any(|row| row.bends);
-            self.blocks.push(Block { call, sources, rows, bends });
+            self.rows.extend_from_slice(here);
+            self.blocks.push(Rates { request, reads, rows: start..self.rows.len() as u32 });
         }
         self.known.insert(hash, entry);
         entry
+    }
+
+    /// The blocks of an entry begin here.
+    fn group(&mut self, owner: AutomatonIndex) -> Entry {
+        let first = self.blocks.len() as u32;
+        self.groups.push(first);
+        Entry { owner, first }
     }
 
     /// Whether the blocks of an entry hold exactly these rates.
@@ -220,11 +270,11 @@ impl<'a> Gather<'a> {
         }
         let row = self.system.algebraics[z].value;
         let to = self.memory.algebraic(Side::Quantised, z);
-        let entry = Entry { owner: row.owner, first: self.blocks.len() as u32 };
+        let entry = self.group(row.owner);
         for &node in self.system.nodes(row) {
-            let call = self.request(Side::Quantised, &[node], Some(to));
-            let sources = sources(self.shapes.leaves(), self.memory.layout, &mut self.sources);
-            self.blocks.push(Block { call, sources, rows: 0..0, bends: true });
+            let request = self.ask(Side::Quantised, &[node], Some(to));
+            let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.reads);
+            self.blocks.push(Rates { request, reads, rows: 0..0 });
         }
         self.algebraics[0][z] = Some(entry);
         entry
@@ -254,9 +304,9 @@ impl<'a> Gather<'a> {
         let sources = sources(leaves, self.memory.layout, &mut self.sources);
         let needed = algebraics(leaves);
         let before: Vec<Entry> = needed.into_iter().map(|z| self.algebraic_calls(z, plain)).collect();
-        let start = self.entries.len() as u32;
-        self.entries.extend(before);
-        Formula { call, sources, before: start..self.entries.len() as u32, result: RESULT }
+        let start = self.before.len() as u32;
+        self.before.extend(before);
+        Formula { call, sources, before: start..self.before.len() as u32, result: RESULT }
     }
 
     /// Whether a watch compares time itself with what does not change between events.
@@ -279,8 +329,12 @@ impl<'a> Gather<'a> {
     }
 
     fn request(&mut self, side: Side, roots: &[NodeId], to: Option<u32>) -> Call {
-        let RequestIndex(request) = self.shapes.request(self.system, &mut self.memory, side, roots, to);
+        let RequestIndex(request) = self.ask(side, roots, to);
         Call { program: request, operands: 0..0 }
+    }
+
+    fn ask(&mut self, side: Side, roots: &[NodeId], to: Option<u32>) -> RequestIndex {
+        self.shapes.request(self.system, &mut self.memory, side, roots, to)
     }
 }
 

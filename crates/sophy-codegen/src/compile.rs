@@ -1,13 +1,16 @@
 //! The whole path from a flat system to callable equations.
 
 use crate::automata::Owned;
-use crate::blocks::{Gather, Gathered};
+use crate::blocks::Gather;
 use crate::interpreter::{enclose, run};
 use crate::logic;
 use crate::memory::Memory;
-use crate::shapes::{Emitter, Programs, RequestIndex, Sharing};
+use crate::patterns::Blocks;
+use crate::shapes::{Answer, Emitter, Programs, RequestIndex, Sharing};
 use crate::watches::Watching;
-use sophy_field::{Call, Equations, Formula, InputIndex, Logic, ParameterIndex, StairCode, StateIndex};
+use sophy_field::{
+    Affine, Call, Equations, Formula, InputIndex, Logic, ParameterIndex, StairCode, StateIndex,
+};
 use sophy_ir::{Evaluator, Leaf, Stair, System, Value};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -86,21 +89,19 @@ pub fn compile_sharing(
         .map(|i| Leaf::State(StateIndex::new(i)))
         .chain((0..system.inputs.len()).map(|i| Leaf::Input(InputIndex::new(i))))
         .chain([Leaf::Time]);
-    let influence = sources.map(|leaf| gather.influence(&[leaf])).collect();
-    let own = (0..system.states.len()).map(|s| gather.all_of([StateIndex::new(s)])).collect();
+    let influence: Vec<_> = sources.map(|leaf| gather.influence(&[leaf])).collect();
+    let own: Vec<_> = (0..system.states.len()).map(|s| gather.all_of([StateIndex::new(s)])).collect();
     let owned = Owned::new(system);
     let on_location = (0..system.automata.len()).map(|a| owned.entries(&mut gather, a)).collect();
     let watching = Watching::new(&mut gather);
     let on_watch = watching.decided().map(|decided| gather.influence(decided)).collect();
-    let rates = system.states.iter().map(|s| gather.selected(s.rate, false)).collect();
     let outputs = system.outputs.iter().map(|y| gather.selected(y.value, true)).collect();
     let watches = watching.codes(&mut gather);
     let mut logic = logic::compile(&mut gather, &mut evaluator, &parameters)?;
     let automata = owned.automata(&mut gather, &watching);
 
     // … and by which programs.
-    let Gathered { mut memory, shapes, mut blocks, mut calls, formulas, sources, rows, entries } =
-        gather.finish();
+    let (mut memory, shapes, mut gathered) = gather.finish();
     let mut equations = Equations {
         layout: memory.layout,
         image: Vec::new(),
@@ -109,44 +110,45 @@ pub fn compile_sharing(
         programs: Vec::new(),
         kernels: OnceLock::new(),
         operands: Vec::new(),
-        calls: Vec::new(),
+        calls: std::mem::take(&mut gathered.calls),
         blocks: Vec::new(),
-        sources,
-        rows,
-        entries,
-        influence,
-        own,
-        on_location,
-        on_watch,
+        reads: Vec::new(),
+        rows: Vec::new(),
+        evaluations: Vec::new(),
+        influences: Vec::new(),
+        sites: Vec::new(),
+        turns: Vec::new(),
+        on_location: Vec::new(),
+        on_watch: Vec::new(),
+        sources: Vec::new(),
+        entries: Vec::new(),
         automata,
         watches,
         stairs: system.stairs.iter().map(|stair| stair_code(system, &memory, stair)).collect(),
         watches_of_source: watching.of_sources(),
-        formulas,
-        rates,
+        formulas: std::mem::take(&mut gathered.formulas),
         outputs,
     };
     let mut emitter = Emitter::new(system, &mut memory, shapes, sharing);
-    let mut results = Vec::new();
-    let mut answer = |call: &mut Call| {
-        results.clear();
-        *call = emitter.call(RequestIndex(call.program), &mut results);
-        results.clone()
+    let blocks = Blocks::new(system, &mut gathered, &mut emitter, &mut equations);
+    equations.on_location = blocks.turns(&gathered.entries, on_location, &mut equations.turns);
+    equations.on_watch = blocks.turns(&gathered.entries, on_watch, &mut equations.turns);
+    blocks.influences(system, &gathered.entries, &influence, &own, &mut equations);
+    equations.sources = gathered.sources;
+    equations.entries = gathered.before;
+    let (mut answer, operands) = (Answer::default(), &mut equations.operands);
+    let mut place = |call: &mut Call| {
+        emitter.answer(RequestIndex(call.program), &mut answer);
+        let start = operands.len() as u32;
+        operands.extend(answer.operands.iter().map(|&operand| Affine::fixed(operand)));
+        *call = Call { program: answer.program, operands: start..operands.len() as u32 };
+        answer.results.first().copied()
     };
-    for block in &mut blocks {
-        let places = answer(&mut block.call);
-        let rows = &mut equations.rows[block.rows.start as usize..block.rows.end as usize];
-        for (row, place) in rows.iter_mut().zip(places) {
-            row.result = place;
-        }
-    }
-    for call in &mut calls {
-        answer(call);
+    for call in &mut equations.calls {
+        place(call);
     }
     let mut place = |formula: &mut Formula| {
-        if let [result] = answer(&mut formula.call)[..] {
-            formula.result = result;
-        }
+        formula.result = place(&mut formula.call).unwrap_or(formula.result);
     };
     equations.formulas.iter_mut().for_each(&mut place);
     for watch in &mut equations.watches {
@@ -156,14 +158,14 @@ pub fn compile_sharing(
         transition.resets.iter_mut().for_each(|(_, formula)| place(formula));
         transition.emits.iter_mut().filter_map(|emission| emission.when.as_mut()).for_each(&mut place);
     }
-    let Programs { programs, operands, temporaries, too_deep } = emitter.finish();
+    let Programs { programs, temporaries, too_deep } = emitter.finish();
     if too_deep {
         return Err(CompileError::TooDeep { system: system.name.clone() });
     }
     // Room for reading a jet of any width at the last temporary.
     equations.layout.length = memory.end() + temporaries + 4;
     equations.image = image(system, &memory, &mut evaluator, &parameters, equations.layout.length);
-    let mut equations = Equations { programs, operands, blocks, calls, ..equations };
+    equations.programs = programs;
     equations.shrink_to_fit();
     Ok(Compiled { equations, logic, parameters })
 }

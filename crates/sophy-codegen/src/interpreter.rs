@@ -3,21 +3,26 @@
 
 use crate::jet;
 use crate::scalar::Scalar;
-use sophy_field::{Code, Enclosing, NOW, Program};
+use sophy_field::{Affine, Code, Enclosing, NOW, Program};
 use sophy_segment::Interval;
 
 /// Runs `program` on numbers; see [`sophy_field::Run`].
-pub fn run(program: &Program, operands: &[u32], memory: &mut [f64], orders: usize) {
-    dispatch(program, operands, &mut Numbers(memory), orders);
+pub fn run(program: &Program, operands: &[Affine], copy: u32, memory: &mut [f64], orders: usize) {
+    dispatch(program, (operands, copy), &mut Numbers(memory), orders);
 }
 
 /// Runs `program` on enclosures; see [`sophy_field::Enclose`].
-pub fn enclose(program: &Program, operands: &[u32], memory: &mut Enclosing<'_>, orders: usize) {
-    dispatch(program, operands, memory, orders);
+pub fn enclose(program: &Program, operands: &[Affine], copy: u32, memory: &mut Enclosing<'_>, orders: usize) {
+    dispatch(program, (operands, copy), memory, orders);
 }
 
 #[inline]
-fn dispatch<T: Scalar>(program: &Program, operands: &[u32], memory: &mut impl Bank<T>, orders: usize) {
+fn dispatch<T: Scalar>(
+    program: &Program,
+    operands: (&[Affine], u32),
+    memory: &mut impl Bank<T>,
+    orders: usize,
+) {
     match orders {
         1 => execute::<T, _, 1>(program, operands, memory),
         2 => execute::<T, _, 2>(program, operands, memory),
@@ -102,14 +107,14 @@ fn numbers_of<T: Scalar>(column: &[T]) -> &[T] {
 
 pub(crate) fn execute<T: Scalar, B: Bank<T>, const N: usize>(
     program: &Program,
-    operands: &[u32],
+    (operands, copy): (&[Affine], u32),
     memory: &mut B,
 ) {
     // Behind a scalar stands something too: what is copied with it is never read, nor is a trajectory, which its
     // instruction follows.
     let mut to = program.gather;
-    for &operand in operands {
-        let value = memory.load::<N>(operand);
+    for operand in operands {
+        let value = memory.load::<N>(operand.of(copy));
         memory.store(to, value);
         to += program.stride;
     }
@@ -240,11 +245,11 @@ pub(crate) fn execute<T: Scalar, B: Bank<T>, const N: usize>(
             }
             Code::Store => {
                 let value = jet!(a);
-                memory.store(operands[to as usize], value);
+                memory.store(operands[to as usize].of(copy), value);
                 continue;
             }
             Code::Follow => follow(memory, a, b),
-            Code::FollowOperand => follow(memory, operands[a as usize], b),
+            Code::FollowOperand => follow(memory, operands[a as usize].of(copy), b),
         };
         memory.store(to, value);
     }

@@ -14,6 +14,7 @@ mod jet;
 mod logic;
 mod memory;
 mod native;
+mod patterns;
 mod programs;
 mod scalar;
 mod shapes;

@@ -4,7 +4,7 @@
 use crate::memory::{Memory, Place, Side};
 use crate::programs::Compiler;
 use rustc_hash::FxHashMap;
-use sophy_field::{Call, Operand, Program};
+use sophy_field::{Operand, Program};
 use sophy_ir::{Leaf, Node, NodeId, System};
 use std::ops::Range;
 
@@ -297,11 +297,19 @@ fn literal(node: Node) -> Option<u32> {
     }
 }
 
+/// What became of a request.
+#[derive(Debug, Default)]
+pub(crate) struct Answer {
+    pub(crate) program: u32,
+    pub(crate) operands: Vec<u32>,
+    /// Where its values stand.
+    pub(crate) results: Vec<Operand>,
+}
+
 /// What all requests became.
 #[derive(Default)]
 pub(crate) struct Programs {
     pub(crate) programs: Vec<Program>,
-    pub(crate) operands: Vec<u32>,
     /// The most temporaries (numbers) any program needs.
     pub(crate) temporaries: u32,
     /// Whether switches nest too deep somewhere.
@@ -334,34 +342,38 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The call that answers a request; where its values stand is appended to `results`.
-    pub(crate) fn call(&mut self, request: RequestIndex, results: &mut Vec<Operand>) -> Call {
+    /// Answers a request.
+    pub(crate) fn answer(&mut self, request: RequestIndex, answer: &mut Answer) {
+        answer.operands.clear();
+        answer.results.clear();
+        answer.program = 0;
         let (request, roots, operands) = self.shapes.of(request);
         let (roots, operands) = (&self.shapes.roots[roots], &self.shapes.operands[operands]);
         if request.shape == TRIVIAL {
             let (system, side) = (self.system, request.side);
-            results.extend(roots.iter().filter_map(|&root| match self.memory.place(system, side, root)? {
-                Place::Jet(at) => Some(Operand::Jet(at)),
-                Place::Scalar(at) => Some(Operand::Scalar(at)),
-                Place::Trajectory(..) => None,
+            answer.results.extend(roots.iter().filter_map(|&root| {
+                match self.memory.place(system, side, root)? {
+                    Place::Jet(at) => Some(Operand::Jet(at)),
+                    Place::Scalar(at) => Some(Operand::Scalar(at)),
+                    Place::Trajectory(..) => None,
+                }
             }));
-            return Call::default();
+            return;
         }
         let shape = &self.shapes.shapes[request.shape as usize];
         if shape.uses < self.least_uses {
             let to = operands.last().copied().filter(|_| request.stored);
             self.compiler.begin(0);
-            results.extend(self.compiler.compile(self.memory, request.side, roots, to));
-            let program = self.made.add(self.compiler.finish());
-            return Call { program, operands: 0..0 };
+            answer.results.extend(self.compiler.compile(self.memory, request.side, roots, to));
+            answer.program = self.made.add(self.compiler.finish());
+            return;
         }
-        let first = self.made.operands.len() as u32;
         let varying = operands.iter().zip(&shape.varies).filter(|(_, varies)| **varies);
-        self.made.operands.extend(varying.map(|(operand, _)| operand));
+        answer.operands.extend(varying.map(|(operand, _)| operand));
         let (program, places) = match &mut self.shared[request.shape as usize] {
             Some(known) => known,
             missing => {
-                let count = self.made.operands.len() as u32 - first;
+                let count = answer.operands.len() as u32;
                 self.compiler.begin(count);
                 self.shapes.reader.read(self.system, self.memory, request.side, roots, request.stored);
                 let varying = self.shapes.reader.operands.iter().zip(&shape.varies);
@@ -379,8 +391,8 @@ impl<'a> Emitter<'a> {
                 missing.insert((program, places))
             }
         };
-        results.extend_from_slice(places);
-        Call { program: *program, operands: first..self.made.operands.len() as u32 }
+        answer.results.extend_from_slice(places);
+        answer.program = *program;
     }
 
     /// Everything made.

@@ -1,6 +1,6 @@
 use crate::{
-    AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Operand, Program, Run,
-    StateIndex, Table, WatchIndex,
+    Affine, AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Operand, Program,
+    Run, Site, StateIndex, Table, WatchIndex,
 };
 use sophy_segment::Interval;
 use std::ops::Range;
@@ -17,6 +17,10 @@ use std::sync::OnceLock;
 ///
 /// **Shapes** are programs up to what they read: equal equations share one, and each use has its own operands
 /// ([`Call`]), so that code grows with the number of different equations, not with that of states.
+///
+/// **Copies** have blocks in common, up to numbers that go up by the same from copy to copy ([`Affine`]): operands,
+/// sources, the states of rows. So a block stands once for all copies of a component in an array, and what a copy has of
+/// its own is its [`Site`].
 #[derive(Clone, Debug)]
 pub struct Equations {
     /// Where things stand in memory.
@@ -33,25 +37,31 @@ pub struct Equations {
     /// here takes it out.
     pub kernels: OnceLock<Kernels>,
     /// Operands of shared programs, by range.
-    pub operands: Vec<u32>,
+    pub operands: Vec<Affine>,
     /// Calls that evaluate algebraic variables on the series side: one per location, in a row.
     pub calls: Vec<Call>,
     /// All blocks.
     pub blocks: Vec<Block>,
-    /// Sources read by blocks and formulas, by range.
-    pub sources: Vec<SourceIndex>,
+    /// Quantised sources read by blocks, by range.
+    pub reads: Vec<Affine>,
     /// Rows computed by blocks, by range.
     pub rows: Vec<RowResult>,
-    /// Entries of the influence lists, in the order of evaluation, and of prerequisites of formulas.
-    pub entries: Vec<Entry>,
-    /// Per source: its entries.
-    pub influence: Vec<Range<u32>>,
-    /// Per state: the entries that evaluate its own rate.
-    pub own: Vec<Range<u32>>,
-    /// Per automaton: the entries to evaluate when its location changes.
+    /// What is evaluated for sources, in the order of evaluation, by range.
+    pub evaluations: Vec<Evaluation>,
+    /// What sources influence: those of copies have it in common.
+    pub influences: Vec<Influence>,
+    /// Per source: what it influences.
+    pub sites: Vec<Site>,
+    /// What is evaluated when locations, truths and stairs change, by range.
+    pub turns: Vec<Turn>,
+    /// Per automaton: the turns when its location changes.
     pub on_location: Vec<Range<u32>>,
-    /// Per watch: the entries to evaluate when a truth or stair decided by it changes.
+    /// Per watch: the turns when a truth or stair decided by it changes.
     pub on_watch: Vec<Range<u32>>,
+    /// Integrated sources read by formulas, by range.
+    pub sources: Vec<SourceIndex>,
+    /// Prerequisites of formulas, by range.
+    pub entries: Vec<Entry>,
     /// Per automaton: what it selects and arms.
     pub automata: Vec<AutomatonCode>,
     /// Watches; those that read a truth come after the watch that decides it.
@@ -62,8 +72,6 @@ pub struct Equations {
     pub watches_of_source: Table<WatchIndex>,
     /// Formulas chosen by a location: those of one quantity in a row.
     pub formulas: Vec<Formula>,
-    /// Per state: its rate on the series side (along x), for the Jacobian, among the formulas.
-    pub rates: Vec<Entry>,
     /// Per output: its value, switches as written, among the formulas.
     pub outputs: Vec<Entry>,
 }
@@ -80,33 +88,76 @@ impl SourceIndex {
     }
 }
 
-/// Rows that are evaluated together.
+/// Rows that are evaluated together, of a component and its copies.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Block {
     /// What computes its rows.
     pub call: Call,
-    /// In [`Equations::sources`]: whose quantised trajectories it reads.
-    pub sources: Range<u32>,
+    /// In [`Equations::reads`]: whose quantised trajectories it reads.
+    pub reads: Range<u32>,
     /// In [`Equations::rows`]: what it computes.
     pub rows: Range<u32>,
     /// Whether a row bends: then one more order than the engine's is evaluated, to bound its error.
     pub bends: bool,
+    /// What reads the result of another block has a higher rank.
+    pub rank: Affine,
 }
 
 /// A rate computed by a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RowResult {
-    /// The state.
-    pub state: StateIndex,
+    /// The state: a [`StateIndex`].
+    pub state: Affine,
     /// Where its rate stands.
-    pub result: Operand,
+    pub at: Affine,
+    /// Whether a jet stands there, not a scalar.
+    pub is_jet: bool,
     /// Whether this rate is between events other than the engine takes it for: with order 1 it reads an input
     /// or time, with order 2 it is not affine in the sources.
     pub bends: bool,
 }
 
-/// One of several that stand in a row, by the location of an automaton: the block, call or formula
-/// `first + location(owner)`. In an influence list prerequisites have smaller `first`.
+/// What a source influences, up to the copy.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Influence {
+    /// In [`Equations::evaluations`]: what reads it.
+    pub on_step: Range<u32>,
+    /// The same of what computes its own rate, where it is a state.
+    pub own: Range<u32>,
+}
+
+/// A block to be evaluated for a source, up to the copy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Evaluation {
+    /// The block for location 0 of the owner; those of its other locations follow.
+    pub first: u32,
+    /// Which copy of the block.
+    pub copy: Affine,
+    /// The automaton whose location selects: an [`AutomatonIndex`].
+    pub owner: Affine,
+}
+
+impl Evaluation {
+    /// Of a copy of the source.
+    #[inline]
+    pub fn of(self, copy: u32) -> Turn {
+        Turn { first: self.first, copy: self.copy.of(copy), owner: AutomatonIndex(self.owner.of(copy)) }
+    }
+}
+
+/// A block to be evaluated, in whatever location.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Turn {
+    /// The block for location 0 of the owner; those of its other locations follow.
+    pub first: u32,
+    /// Which copy of it.
+    pub copy: u32,
+    /// The automaton whose location selects.
+    pub owner: AutomatonIndex,
+}
+
+/// One of several that stand in a row, by the location of an automaton: the call or formula
+/// `first + location(owner)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry {
     /// Its position for location 0.
@@ -210,34 +261,39 @@ impl Equations {
         self.operands.shrink_to_fit();
         self.calls.shrink_to_fit();
         self.blocks.shrink_to_fit();
-        self.sources.shrink_to_fit();
+        self.reads.shrink_to_fit();
         self.rows.shrink_to_fit();
+        self.evaluations.shrink_to_fit();
+        self.influences.shrink_to_fit();
+        self.turns.shrink_to_fit();
+        self.sources.shrink_to_fit();
         self.entries.shrink_to_fit();
         self.formulas.shrink_to_fit();
     }
 
-    /// Runs a program on its operands.
+    /// Runs a program on its operands, those of a copy.
     #[inline]
     #[allow(unsafe_code)]
-    pub fn execute(&self, call: &Call, memory: &mut [f64], orders: usize) {
+    pub fn execute(&self, call: &Call, copy: u32, memory: &mut [f64], orders: usize) {
         let kernel = self.kernels.get().and_then(|kernels| kernels.get(call.program, orders));
         if let Some(kernel) = kernel
             && memory.len() == self.layout.length as usize
         {
-            // SAFETY: `kernels` were made for these equations, and memory has their length.
-            unsafe { kernel(self.operands(call).as_ptr(), memory.as_mut_ptr()) };
+            // SAFETY: `kernels` were made for these equations, and memory has their length. Of a copy that is none an
+            // operand would lie elsewhere, but copies come from sites only.
+            unsafe { kernel(self.operands(call).as_ptr(), copy, memory.as_mut_ptr()) };
             return;
         }
-        (self.run)(&self.programs[call.program as usize], self.operands(call), memory, orders);
+        (self.run)(&self.programs[call.program as usize], self.operands(call), copy, memory, orders);
     }
 
     #[inline]
-    fn operands(&self, call: &Call) -> &[u32] {
+    fn operands(&self, call: &Call) -> &[Affine] {
         &self.operands[call.operands.start as usize..call.operands.end as usize]
     }
 
     fn execute_enclosed(&self, call: &Call, memory: &mut Enclosing<'_>, orders: usize) {
-        (self.enclose)(&self.programs[call.program as usize], self.operands(call), memory, orders);
+        (self.enclose)(&self.programs[call.program as usize], self.operands(call), 0, memory, orders);
     }
 
     /// Runs the program of a formula on `memory`, in which the present time and the records of its sources must stand,
@@ -250,9 +306,9 @@ impl Equations {
         orders: usize,
     ) -> Jet {
         for entry in self.entries(&formula.before) {
-            self.execute(&self.calls[entry.at(locations)], memory, orders);
+            self.execute(&self.calls[entry.at(locations)], 0, memory, orders);
         }
-        self.execute(&formula.call, memory, orders);
+        self.execute(&formula.call, 0, memory, orders);
         self.result(formula.result, memory, orders)
     }
 
@@ -260,9 +316,9 @@ impl Equations {
     #[inline]
     pub fn value(&self, formula: &Formula, locations: &[LocationIndex], memory: &mut [f64]) -> f64 {
         for entry in self.entries(&formula.before) {
-            self.execute(&self.calls[entry.at(locations)], memory, 1);
+            self.execute(&self.calls[entry.at(locations)], 0, memory, 1);
         }
-        self.execute(&formula.call, memory, 1);
+        self.execute(&formula.call, 0, memory, 1);
         match formula.result {
             Operand::Scalar(at) | Operand::Jet(at) => memory[at as usize],
         }
@@ -296,22 +352,77 @@ impl Equations {
     /// The coefficients that stand at an operand.
     #[inline]
     pub fn result(&self, operand: Operand, memory: &[f64], orders: usize) -> Jet {
-        let mut coefficients = self.rate(operand, memory);
+        let mut coefficients = match operand {
+            Operand::Scalar(at) => [memory[at as usize], 0.0, 0.0, 0.0],
+            Operand::Jet(at) => four(memory, at),
+        };
         coefficients.iter_mut().skip(orders).for_each(|c| *c = 0.0);
         coefficients
     }
 
     /// Four numbers at the result of a row, of which so many are its coefficients as its program was asked for.
     #[inline]
-    pub fn rate(&self, result: Operand, memory: &[f64]) -> Jet {
-        match result {
-            Operand::Scalar(at) => [memory[at as usize], 0.0, 0.0, 0.0],
-            Operand::Jet(at) => match memory[at as usize..] {
-                [c0, c1, c2, c3, ..] => [c0, c1, c2, c3],
-                // Memory ends with room for a jet.
-                _ => [f64::NAN; 4],
-            },
-        }
+    pub fn rate(&self, row: &RowResult, copy: u32, memory: &[f64]) -> Jet {
+        let at = row.at.of(copy);
+        if row.is_jet { four(memory, at) } else { [memory[at as usize], 0.0, 0.0, 0.0] }
+    }
+
+    /// What reads a source, in the order of evaluation, and the copy of it.
+    #[inline]
+    pub fn influence(&self, source: usize) -> (&[Evaluation], u32) {
+        let Site { pattern, copy } = self.sites[source];
+        let Range { start, end } = self.influences[pattern as usize].on_step;
+        (&self.evaluations[start as usize..end as usize], copy)
+    }
+
+    /// What evaluates the rate of a state, in the order of evaluation, and the copy of it.
+    #[inline]
+    pub fn own(&self, state: usize) -> (&[Evaluation], u32) {
+        let Site { pattern, copy } = self.sites[state];
+        let Range { start, end } = self.influences[pattern as usize].own;
+        (&self.evaluations[start as usize..end as usize], copy)
+    }
+
+    /// The blocks that evaluate the rate of a state in the present locations, and which copy of them.
+    pub fn own_blocks<'a>(
+        &'a self,
+        state: usize,
+        locations: &'a [LocationIndex],
+    ) -> impl Iterator<Item = (&'a Block, u32)> {
+        let (evaluations, copy) = self.own(state);
+        evaluations.iter().map(move |evaluation| {
+            let turn = evaluation.of(copy);
+            (self.block(turn, locations), turn.copy)
+        })
+    }
+
+    /// The block of a turn in the present locations.
+    #[inline]
+    pub fn block(&self, turn: Turn, locations: &[LocationIndex]) -> &Block {
+        &self.blocks[(turn.first + locations[turn.owner.position()].0) as usize]
+    }
+
+    /// The rank of a turn: what needs it has a higher one.
+    pub fn rank(&self, turn: Turn) -> u32 {
+        self.blocks[turn.first as usize].rank.of(turn.copy)
+    }
+
+    /// The rows of a block.
+    #[inline]
+    pub fn rows(&self, block: &Block) -> &[RowResult] {
+        &self.rows[block.rows.start as usize..block.rows.end as usize]
+    }
+
+    /// The sources that a block reads, up to the copy.
+    #[inline]
+    pub fn reads(&self, block: &Block) -> &[Affine] {
+        &self.reads[block.reads.start as usize..block.reads.end as usize]
+    }
+
+    /// The turns of a range.
+    #[inline]
+    pub fn turns(&self, range: &Range<u32>) -> &[Turn] {
+        &self.turns[range.start as usize..range.end as usize]
     }
 
     /// The entries of a range.
@@ -320,13 +431,7 @@ impl Equations {
         &self.entries[range.start as usize..range.end as usize]
     }
 
-    /// The block of an entry in the present locations.
-    #[inline]
-    pub fn block(&self, entry: Entry, locations: &[LocationIndex]) -> &Block {
-        &self.blocks[entry.at(locations)]
-    }
-
-    /// The formula of an entry (of [`Equations::rates`] or [`Equations::outputs`]) in the present locations.
+    /// The formula of an entry of [`Equations::outputs`] in the present locations.
     #[inline]
     pub fn selected(&self, entry: Entry, locations: &[LocationIndex]) -> &Formula {
         &self.formulas[entry.at(locations)]
@@ -336,6 +441,15 @@ impl Equations {
     #[inline]
     pub fn sources(&self, range: &Range<u32>) -> &[SourceIndex] {
         &self.sources[range.start as usize..range.end as usize]
+    }
+}
+
+/// Memory ends with room for a jet.
+#[inline]
+fn four(memory: &[f64], at: u32) -> Jet {
+    match memory[at as usize..] {
+        [c0, c1, c2, c3, ..] => [c0, c1, c2, c3],
+        _ => [f64::NAN; 4],
     }
 }
 

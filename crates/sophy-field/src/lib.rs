@@ -7,6 +7,7 @@
 //! - [`Agenda`]: the queue of what happens next.
 
 mod agenda;
+mod copies;
 mod engine;
 mod equations;
 mod index;
@@ -18,9 +19,11 @@ mod program;
 mod table;
 
 pub use agenda::Agenda;
+pub use copies::{Affine, Site};
 pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
 pub use equations::{
-    AutomatonCode, Block, Entry, Equations, Formula, RowResult, SourceIndex, StairCode, WatchCode,
+    AutomatonCode, Block, Entry, Equations, Evaluation, Formula, Influence, RowResult, SourceIndex,
+    StairCode, Turn, WatchCode,
 };
 pub use index::{
     AlgebraicIndex, AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, OutputIndex,

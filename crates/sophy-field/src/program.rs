@@ -1,5 +1,6 @@
 //! Straight-line programs over Taylor coefficients: what the equations of a system are compiled to.
 
+use crate::Affine;
 use sophy_segment::Interval;
 use std::any::Any;
 use std::fmt;
@@ -144,8 +145,8 @@ impl Code {
 /// A program, absolute or shared.
 ///
 /// An *absolute* one names in its instructions the memory it reads. A *shared* one stands for all equations of
-/// one shape, a thousand copies of a component say: each use brings its own table of operands (offsets of
-/// trajectories, jets and scalars), which are gathered into temporaries before the first instruction.
+/// one shape, a thousand copies of a component say: each use brings its own operands (offsets of trajectories, jets
+/// and scalars), which are gathered into temporaries before the first instruction.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Program {
     /// Executed from the first on; jumps lead forwards only.
@@ -172,10 +173,11 @@ pub type Jet = [f64; 4];
 /// Runs a program on memory, computing `orders` coefficients (1 … width) of every jet.
 ///
 /// Both back ends fill the same pointer, so that nothing above is generic over them.
-pub type Run = fn(program: &Program, operands: &[u32], memory: &mut [f64], orders: usize);
+pub type Run = fn(program: &Program, operands: &[Affine], copy: u32, memory: &mut [f64], orders: usize);
 
 /// The same over a stretch of time: every coefficient becomes an enclosure.
-pub type Enclose = fn(program: &Program, operands: &[u32], memory: &mut Enclosing<'_>, orders: usize);
+pub type Enclose =
+    fn(program: &Program, operands: &[Affine], copy: u32, memory: &mut Enclosing<'_>, orders: usize);
 
 /// Memory over a stretch of time: what programs write is enclosed, the records of sources are numbers.
 #[derive(Debug)]
@@ -212,17 +214,18 @@ pub struct Kernels {
     _code: Arc<dyn Any + Send + Sync>,
 }
 
-/// Machine code of one program: its operands, and memory.
+/// Machine code of one program: its operands, for which copy, and memory.
 ///
 /// # Safety
 /// As [`Kernels::new`] says.
-pub type Kernel = unsafe extern "C" fn(operands: *const u32, memory: *mut f64);
+pub type Kernel = unsafe extern "C" fn(operands: *const Affine, copy: u32, memory: *mut f64);
 
 impl Kernels {
     /// Kernels by program and then by orders − 1; `code` is what they live in.
     ///
     /// # Safety
-    /// A kernel lives as long as `code`. Run with the operands of any [`Call`] of its program and a memory as long
+    /// A kernel lives as long as `code`. Run with the operands of any [`Call`] of its program, a copy that there is, and a
+    /// memory as long
     /// as that of the [`Equations`](crate::Equations) they were made for, it reads and writes inside both only.
     #[allow(unsafe_code)]
     pub unsafe fn new(of: Vec<[Option<Kernel>; 4]>, code: Arc<dyn Any + Send + Sync>) -> Self {

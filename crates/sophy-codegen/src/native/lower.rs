@@ -38,7 +38,7 @@ pub(super) fn lower(
     let entry = builder.create_block();
     builder.append_block_params_for_function_params(entry);
     builder.switch_to_block(entry);
-    let [operands, memory] = [0, 1].map(|k| builder.block_params(entry)[k]);
+    let [operands, copy, memory] = [0, 1, 2].map(|k| builder.block_params(entry)[k]);
     let mut writer = Writer {
         wanted,
         builder,
@@ -49,7 +49,7 @@ pub(super) fn lower(
         variables: FxHashMap::default(),
         loaded: FxHashMap::default(),
     };
-    writer.gather(operands);
+    writer.gather(operands, copy);
     writer.declare();
     writer.body()?;
     writer.builder.seal_all_blocks();
@@ -80,9 +80,12 @@ impl Writer<'_> {
     }
 
     /// The addresses of operands; results among them are copied to where they are expected.
-    fn gather(&mut self, operands: Value) {
+    fn gather(&mut self, operands: Value, copy: Value) {
         for k in 0..self.wanted.operands {
-            let offset = self.load(types::I32, operands, 4 * k);
+            let first = self.load(types::I32, operands, 8 * k);
+            let stride = self.load(types::I32, operands, 8 * k + 4);
+            let distance = self.builder.ins().imul(stride, copy);
+            let offset = self.builder.ins().iadd(first, distance);
             let offset = self.builder.ins().uextend(types::I64, offset);
             let bytes = self.builder.ins().ishl_imm_u(offset, 3);
             let pointer = self.builder.ins().iadd(self.memory, bytes);

@@ -81,7 +81,7 @@ unsafe fn compile(programs: &[Program], asked: &Asked) -> Result<Kernels, NoNati
             let results = &asked.results[position];
             let wanted = Wanted { program, orders, results, temporaries: program.gather, operands };
             let pointer = AbiParam::new(types::I64);
-            context.func.signature.params.extend([pointer, pointer]);
+            context.func.signature.params.extend([pointer, AbiParam::new(types::I32), pointer]);
             thunks.begin();
             lower(&wanted, &mut context.func, &mut builder, &mut module, &mut thunks)?;
             let function = module.declare_anonymous_function(&context.func.signature).map_err(Box::new)?;
@@ -144,8 +144,10 @@ impl Asked {
             if width != 3 {
                 asked.call(&block.call, &[2]);
             }
-            for row in &equations.rows[block.rows.start as usize..block.rows.end as usize] {
-                asked.result(&block.call, row.result, width);
+            for row in equations.rows(block) {
+                let at = row.at.first;
+                let result = if row.is_jet { Operand::Jet(at) } else { Operand::Scalar(at) };
+                asked.result(&block.call, result, width);
             }
         }
         for call in &equations.calls {

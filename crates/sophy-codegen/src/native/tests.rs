@@ -1,7 +1,7 @@
 use super::{Asked, compile};
 use crate::interpreter::run;
 use proptest::prelude::*;
-use sophy_field::{Code, Instruction, Kernels, Program};
+use sophy_field::{Affine, Code, Instruction, Kernels, Program};
 
 const WIDTH: usize = 4;
 
@@ -92,9 +92,16 @@ impl Both {
     /// The bits of memory, interpreted and native.
     fn run(&self, operands: &[u32], numbers: &[f64]) -> [Vec<u64>; 2] {
         let (mut interpreted, mut native) = (memory(numbers), memory(numbers));
-        run(&self.program, operands, &mut interpreted, self.orders);
+        // As those of some copy.
+        let copy = 5;
+        let stride = |k: usize| 3 * k as u32 + 1;
+        let operands: Vec<Affine> = (0..)
+            .zip(operands)
+            .map(|(k, &at)| Affine { first: at.wrapping_sub(copy * stride(k)), stride: stride(k) })
+            .collect();
+        run(&self.program, &operands, copy, &mut interpreted, self.orders);
         // SAFETY: as in `new`.
-        unsafe { self.kernels.get(0, self.orders).unwrap()(operands.as_ptr(), native.as_mut_ptr()) };
+        unsafe { self.kernels.get(0, self.orders).unwrap()(operands.as_ptr(), copy, native.as_mut_ptr()) };
         // Which of two NaN comes out of their sum is not promised.
         let bits = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
         [interpreted, native].map(|memory| memory.into_iter().map(bits).collect())

@@ -101,7 +101,7 @@ fn trace_jets<const N: usize>(instruction: &Instruction) -> Trace {
     };
     memory.extend((0..n).map(|_| Traced::of(0.0)));
     let program = Program { instructions: vec![alone], gather: 0, stride: 0 };
-    execute::<Traced, _, N>(&program, &[], &mut Numbers(&mut memory));
+    execute::<Traced, _, N>(&program, (&[], 0), &mut Numbers(&mut memory));
     let written = if instruction.code.writes_jet() { N } else { 1 };
     let results = memory[alone.to as usize..][..written].iter().map(|traced| traced.0).collect();
     Trace { operations: TAPE.with_borrow_mut(std::mem::take), results }

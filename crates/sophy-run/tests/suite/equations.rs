@@ -153,6 +153,9 @@ fn case(steps: &[Step], point: Point, tame: bool) -> Case {
     b.rate(here, x1, root);
     let opposite = b.sub(root, leaves[1]);
     b.rate(here, x2, opposite);
+    // Integrated trajectories are read by guards.
+    let guard = b.less(root, leaves[1]);
+    b.when(here, "turn", guard, here, &[]);
     lowered(&b.model(), point)
 }
 
@@ -243,14 +246,12 @@ impl Case {
         memory
     }
 
-    /// All formulas read by guards, rates and outputs whose reference is a node of the system.
+    /// All formulas read by guards and outputs whose reference is a node of the system.
     fn formulas(&self) -> Vec<(&Formula, NodeId)> {
         let e = &self.compiled.equations;
-        let rates = e.rates.iter().zip(&self.system.states);
         let watches = e.watches.iter().zip(&self.system.watches);
-        rates
-            .map(|(code, state)| (e.selected(*code, &HERE), self.system.nodes(state.rate)[0]))
-            .chain(watches.map(|(code, watch)| (&code.formula, watch.difference)))
+        watches
+            .map(|(code, watch)| (&code.formula, watch.difference))
             .chain([(e.selected(e.outputs[0], &HERE), self.system.nodes(self.system.outputs[0].value)[0])])
             .collect()
     }
@@ -258,13 +259,12 @@ impl Case {
     /// Coefficients of a rate by its block, from quantised jets.
     fn rate(&self, state: usize, memory: &mut [f64], orders: usize) -> Jet {
         let e = &self.compiled.equations;
-        for &entry in e.entries(&e.own[state]) {
-            let block = e.block(entry, &HERE);
-            e.execute(&block.call, memory, orders);
-            for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
-                if row.state == StateIndex::new(state) {
-                    return e.result(row.result, memory, orders);
-                }
+        for (block, copy) in e.own_blocks(state, &HERE) {
+            e.execute(&block.call, copy, memory, orders);
+            if let Some(row) = e.rows(block).iter().find(|row| row.state.of(copy) as usize == state) {
+                let mut rate = e.rate(row, copy, memory);
+                rate.iter_mut().skip(orders).for_each(|c| *c = 0.0);
+                return rate;
             }
         }
         panic!("no block has the rate of state {state}");
@@ -441,8 +441,7 @@ proptest! {
         let mut enclosed: Vec<Interval> =
             numbers[rest as usize..].iter().copied().map(Interval::point).collect();
         let now = Interval::new(TIME, TIME + width);
-        let rates = e.rates.iter().map(|rate| e.selected(*rate, &HERE));
-        for formula in rates.chain(e.watches.iter().map(|watch| &watch.formula)) {
+        for formula in e.watches.iter().map(|watch| &watch.formula) {
             let mut memory = Enclosing { numbers: &numbers, enclosed: &mut enclosed, rest, now };
             let enclosure = e.formula_enclosed(formula, &HERE, &mut memory);
             for &part in &inside {

@@ -3,10 +3,10 @@
 use super::engine::Qss;
 use super::implicit::Ahead;
 use super::record::Place;
-use sophy_field::{AutomatonIndex, Entry, Equations, Fault, Journal, LocationIndex, SourceIndex, StateIndex};
+use sophy_field::{AutomatonIndex, Equations, Fault, Journal, LocationIndex, SourceIndex, StateIndex, Turn};
 
 impl<const ORDER: usize> Qss<ORDER> {
-    /// Evaluates what a change concerns: the entries collected, and what fresh states influence. Twice, for
+    /// Evaluates what a change concerns: the turns collected, and what fresh states influence. Twice, for
     /// values first, so that the quantised trajectories of fresh states start with their slopes.
     pub(super) fn evaluate_afresh(
         &mut self,
@@ -14,39 +14,42 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         journal: &mut Journal,
     ) -> Result<(), Fault> {
-        let mut entries = std::mem::take(&mut self.entries);
+        let mut turns = std::mem::take(&mut self.turns);
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.sort_unstable();
         fresh.dedup();
+        // All rates are among those that evaluate themselves.
+        let all = fresh.len() == e.layout.states as usize;
         for &state in &fresh {
             self.synchronise(state.position(), t);
-            for range in [&e.influence[state.position()], &e.own[state.position()]] {
-                for &entry in e.entries(range) {
+            let influence = if all { (&[][..], 0) } else { e.influence(state.position()) };
+            for (evaluations, copy) in [influence, e.own(state.position())] {
+                for turn in evaluations.iter().map(|evaluation| evaluation.of(copy)) {
                     // An automaton that was entered has all its rates evaluated already.
-                    let rates = !e.block(entry, &self.locations).rows.is_empty();
-                    if !(rates && self.entered[entry.owner.position()]) {
-                        entries.push(entry);
+                    let rates = !e.block(turn, &self.locations).rows.is_empty();
+                    if !(rates && self.entered[turn.owner.position()]) {
+                        turns.push(turn);
                     }
                 }
             }
         }
-        entries.sort_unstable();
-        entries.dedup();
+        turns.sort_unstable_by_key(|&turn| e.rank(turn));
+        turns.dedup();
         for known in 1..ORDER {
-            self.start_derivatives(e, t, known, &entries, &fresh);
+            self.start_derivatives(e, t, known, &turns, &fresh);
         }
-        for &entry in &entries {
-            self.evaluate_entry(e, entry, t, journal).map_err(|failed| self.why(failed))?;
+        for &turn in &turns {
+            self.evaluate_turn(e, turn, t, journal).map_err(|failed| self.why(failed))?;
         }
         for &state in &fresh {
             self.schedule(state.position(), t);
         }
-        entries.clear();
+        turns.clear();
         fresh.clear();
         for automaton in self.entering.drain(..) {
             self.entered[automaton.position()] = false;
         }
-        (self.entries, self.fresh) = (entries, fresh);
+        (self.turns, self.fresh) = (turns, fresh);
         Ok(())
     }
 
@@ -56,16 +59,17 @@ impl<const ORDER: usize> Qss<ORDER> {
         e: &Equations,
         t: f64,
         known: usize,
-        entries: &[Entry],
+        turns: &[Turn],
         fresh: &[StateIndex],
     ) {
-        for &entry in entries {
-            let block = e.block(entry, &self.locations);
-            self.run_block(e, block, t, known);
-            for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
-                if fresh.binary_search(&row.state).is_ok() {
-                    self.slopes
-                        .push((row.state.position(), e.result(row.result, &self.memory, known)[known - 1]));
+        for &turn in turns {
+            let (block, copy) = (e.block(turn, &self.locations), turn.copy);
+            self.run_block(e, (block, copy), t, known);
+            for row in e.rows(block) {
+                let state = StateIndex(row.state.of(copy));
+                if fresh.binary_search(&state).is_ok() {
+                    let rate = e.rate(row, copy, &self.memory);
+                    self.slopes.push((state.position(), rate[known - 1]));
                 }
             }
         }

@@ -5,8 +5,8 @@ use super::record::{Place, Record, RecordMut};
 use super::settings::{Quantum, Settings};
 use super::watches::WatchRecord;
 use sophy_field::{
-    Agenda, AutomatonIndex, Changes, Engine, Entry, Equations, Fault, Jet, Journal, LocationIndex, Memory,
-    NOW, SourceIndex, Start, StateIndex, Statistics, Stop, WatchIndex,
+    Agenda, AutomatonIndex, Changes, Engine, Equations, Fault, Jet, Journal, LocationIndex, Memory, NOW,
+    SourceIndex, Start, StateIndex, Statistics, Stop, Turn, WatchIndex,
 };
 use sophy_segment::{Interval, Sign};
 use std::cmp::Reverse;
@@ -56,8 +56,8 @@ pub struct Qss<const ORDER: usize> {
     pub(super) settling: BinaryHeap<Reverse<WatchIndex>>,
     /// Watches of guards whose sign changed, for the hybrid logic.
     pub(super) changed: Vec<WatchIndex>,
-    /// Entries to evaluate in a change, states that start afresh there, and their slopes; empty in between.
-    pub(super) entries: Vec<Entry>,
+    /// Blocks to evaluate in a change, states that start afresh there, and their slopes; empty in between.
+    pub(super) turns: Vec<Turn>,
     pub(super) fresh: Vec<StateIndex>,
     /// Automata that enter a location in a change: each, and which.
     pub(super) entered: Vec<bool>,
@@ -81,6 +81,8 @@ pub(super) struct Own {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Failed;
 
+/// Room for so many things to do is kept from one change to the next.
+const KEPT: usize = 4096;
 /// So many enclosures count as a step of the budget.
 const ENCLOSURES_PER_STEP: u64 = 4;
 
@@ -110,7 +112,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             dirty: Vec::new(),
             settling: BinaryHeap::new(),
             changed: Vec::new(),
-            entries: Vec::new(),
+            turns: Vec::new(),
             fresh: Vec::new(),
             entered: vec![false; equations.automata.len()],
             entering: Vec::new(),
@@ -174,11 +176,11 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
             }
         }
         self.guess_truths(e, t);
-        for (automaton, range) in e.on_location.iter().enumerate() {
-            self.note_entered(AutomatonIndex::new(automaton));
-            self.entries.extend_from_slice(e.entries(range));
-        }
         self.evaluate_afresh(e, t, journal)?;
+        // Never again is all of a large system evaluated at once.
+        self.turns.shrink_to(KEPT);
+        self.fresh.shrink_to(KEPT);
+        self.slopes.shrink_to(KEPT);
         self.settle(e, t, journal)
     }
 
@@ -235,7 +237,8 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         }
         for &(input, line) in &changes.inputs {
             let source = self.set_input(e, input.position(), line, at);
-            self.entries.extend_from_slice(e.entries(&e.influence[source.position()]));
+            let (influence, copy) = e.influence(source.position());
+            self.turns.extend(influence.iter().map(|evaluation| evaluation.of(copy)));
             self.touch(e, source);
             if journal.wanted {
                 journal.push(sophy_field::Record::Input { time: at, input, value: line[0], slope: line[1] });
@@ -244,7 +247,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         for &(automaton, location) in &changes.locations {
             self.enter(e, automaton.position(), location);
             let range = &e.on_location[automaton.position()];
-            self.entries.extend_from_slice(e.entries(range));
+            self.turns.extend_from_slice(e.turns(range));
             if journal.wanted {
                 journal.push(sophy_field::Record::Location { time: at, automaton, location });
             }
@@ -281,17 +284,31 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
     fn jacobian(&self, e: &Equations, time: f64) -> Vec<(StateIndex, SourceIndex, f64)> {
         let mut memory = self.memory.clone();
         memory[NOW] = time;
+        // Along x, where everything stands still but one.
+        let still = |memory: &mut Memory, source: usize, slope: f64| {
+            let source = SourceIndex(source as u32);
+            e.layout.set_quantised(memory, source, &[self.value(source, time), slope], time);
+        };
+        (0..e.layout.sources()).for_each(|source| still(&mut memory, source, 0.0));
         let mut entries = Vec::new();
-        for (i, rate) in e.rates.iter().enumerate() {
-            let formula = e.selected(*rate, &self.locations);
-            let sources = e.sources(&formula.sources);
-            for &source in sources {
-                for &other in sources {
-                    let slope = if other == source { 1.0 } else { 0.0 };
-                    e.layout.set_integrated(&mut memory, other, &[self.value(other, time), slope], time);
+        let mut sources = Vec::new();
+        for state in 0..e.layout.states as usize {
+            sources.clear();
+            for (block, copy) in e.own_blocks(state, &self.locations) {
+                sources.extend(e.reads(block).iter().map(|source| source.of(copy) as usize));
+            }
+            sources.sort_unstable();
+            sources.dedup();
+            for &source in &sources {
+                still(&mut memory, source, 1.0);
+                let mut slope = 0.0;
+                for (block, copy) in e.own_blocks(state, &self.locations) {
+                    e.execute(&block.call, copy, &mut memory, 2);
+                    let own = e.rows(block).iter().find(|row| row.state.of(copy) as usize == state);
+                    slope = own.map_or(slope, |row| e.rate(row, copy, &memory)[1]);
                 }
-                let [_, slope, ..] = e.formula(formula, &self.locations, &mut memory, 2);
-                entries.push((StateIndex::new(i), source, slope));
+                still(&mut memory, source, 0.0);
+                entries.push((StateIndex::new(state), SourceIndex(source as u32), slope));
             }
         }
         entries

@@ -119,9 +119,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         let mut reads = [0_u32; MOST];
         let mut m = 0;
         while m < count {
-            for &entry in e.entries(&e.own[found[m]]) {
-                for source in e.sources(&e.block(entry, &self.locations).sources) {
-                    let source = source.position();
+            for (block, copy) in e.own_blocks(found[m], &self.locations) {
+                for source in e.reads(block) {
+                    let source = source.of(copy) as usize;
                     let known = found[..count].iter().position(|&f| f == source);
                     let restless = self.ahead.get(source).is_some_and(|s| s.whereabouts.becomes_restless());
                     if let Some(n) = known.or((restless && count < MOST).then_some(count)) {

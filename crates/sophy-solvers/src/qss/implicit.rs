@@ -210,7 +210,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             known
         } else {
             let a = self.slope(e, i, i, t);
-            if ORDER > 1 && e.entries(&e.own[i]).iter().all(|&own| !e.block(own, &self.locations).bends) {
+            if ORDER > 1 && e.own_blocks(i, &self.locations).all(|(block, _)| !block.bends) {
                 self.ahead[i].slope = (a, self.switchings);
             }
             a
@@ -227,26 +227,29 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// ∂f/∂q of a state by the quantised trajectory of a source: the coefficient of a motion of this one alone.
     pub(super) fn slope(&mut self, e: &Equations, state: usize, of: usize, t: f64) -> f64 {
         let mut slope = 0.0;
-        for &entry in e.entries(&e.own[state]) {
-            let block = e.block(entry, &self.locations);
+        let (own, copy) = e.own(state);
+        for evaluation in own {
+            let turn = evaluation.of(copy);
+            let (block, copy) = (e.block(turn, &self.locations), turn.copy);
             // The others stand still.
-            for &source in e.sources(&block.sources) {
-                let record = self.record(source.position());
+            for source in e.reads(block) {
+                let source = source.of(copy) as usize;
+                let record = self.record(source);
                 let (q, value) = ((record.q(), record.tq()), record.q_at(t));
                 self.kept.push(q);
-                let slope = if source.position() == of { 1.0 } else { 0.0 };
-                self.record_mut(source.position()).set_q([value, slope, 0.0], t);
+                let slope = if source == of { 1.0 } else { 0.0 };
+                self.record_mut(source).set_q([value, slope, 0.0], t);
             }
             // As many coefficients as its rates have anyway, so that one native function serves both.
-            self.run_block(e, block, t, if ORDER == 2 && block.bends { 3 } else { 2 });
+            self.run_block(e, (block, copy), t, if ORDER == 2 && block.bends { 3 } else { 2 });
             let mut kept = std::mem::take(&mut self.kept);
-            for (&source, (q, start)) in e.sources(&block.sources).iter().zip(kept.drain(..)) {
-                self.record_mut(source.position()).set_q(q, start);
+            for (source, (q, start)) in e.reads(block).iter().zip(kept.drain(..)) {
+                self.record_mut(source.of(copy) as usize).set_q(q, start);
             }
             self.kept = kept;
-            for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
-                if row.state.position() == state {
-                    slope = e.result(row.result, &self.memory, 2)[1];
+            for row in e.rows(block) {
+                if row.state.of(copy) as usize == state {
+                    slope = e.rate(row, copy, &self.memory)[1];
                 }
             }
         }

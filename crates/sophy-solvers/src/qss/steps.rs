@@ -5,7 +5,7 @@ use super::bend::STRAIGHT;
 use super::engine::{Failed, Qss};
 use super::implicit::explicit;
 use super::record::{leaves, leaves_from_middle};
-use sophy_field::{Block, Entry, Equations, Fault, Jet, Journal, NOW, RowResult, StateIndex};
+use sophy_field::{Block, Equations, Fault, Jet, Journal, NOW, StateIndex, Turn};
 
 /// How often a slot may be scheduled at its own instant.
 pub(super) const MOST_REPEATS: u32 = 100;
@@ -75,8 +75,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         self.take_quantised(i, t, q, quantum);
         self.tell_step(i, t, journal);
         // λ: what depends on it is evaluated, eq. (3.2.2)
-        for &entry in e.entries(&e.influence[i]) {
-            self.evaluate(e, e.block(entry, &self.locations), t, journal)?;
+        let (influence, copy) = e.influence(i);
+        for evaluation in influence {
+            self.evaluate(e, evaluation.of(copy), t, journal)?;
         }
         if self.joined.is_empty() { Ok(()) } else { self.tell_joined(e, t, journal) }
     }
@@ -86,8 +87,9 @@ impl<const ORDER: usize> Qss<ORDER> {
     fn tell_joined(&mut self, e: &Equations, t: f64, journal: &mut Journal) -> Result<(), Failed> {
         while let Some(state) = self.joined.pop() {
             self.tell_step(state.position(), t, journal);
-            for &entry in e.entries(&e.influence[state.position()]) {
-                self.evaluate_entry(e, entry, t, journal)?;
+            let (influence, copy) = e.influence(state.position());
+            for evaluation in influence {
+                self.evaluate_turn(e, evaluation.of(copy), t, journal)?;
             }
         }
         Ok(())
@@ -117,8 +119,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         self.count_repeats(i, self.record(i).tx(), t)?;
         self.statistics.refreshes += 1;
         self.refreshed = i;
-        for &entry in e.entries(&e.own[i]) {
-            self.evaluate_entry(e, entry, t, journal)?;
+        let (own, copy) = e.own(i);
+        for evaluation in own {
+            self.evaluate_turn(e, evaluation.of(copy), t, journal)?;
         }
         self.refreshed = usize::MAX;
         Ok(())
@@ -137,54 +140,50 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// Evaluates the rates of a block at `t` (algorithm 3.2).
     #[inline(always)]
-    fn evaluate(
-        &mut self,
-        e: &Equations,
-        block: &Block,
-        t: f64,
-        journal: &mut Journal,
-    ) -> Result<(), Failed> {
+    fn evaluate(&mut self, e: &Equations, turn: Turn, t: f64, journal: &mut Journal) -> Result<(), Failed> {
+        let (block, copy) = (e.block(turn, &self.locations), turn.copy);
         let orders = if block.bends { ORDER + 1 } else { ORDER };
-        self.run_block(e, block, t, orders);
+        self.run_block(e, (block, copy), t, orders);
         if block.bends {
-            self.still = self.still_for(e, block);
+            self.still = self.still_for(e, block, copy);
         }
-        for row in &e.rows[block.rows.start as usize..block.rows.end as usize] {
-            self.set_rate(e, *row, t, e.rate(row.result, &self.memory), journal)?;
+        for row in e.rows(block) {
+            let state = StateIndex(row.state.of(copy));
+            self.set_rate(e, state, t, (e.rate(row, copy, &self.memory), row.bends), journal)?;
         }
         Ok(())
     }
 
-    /// Evaluates the block of an entry.
+    /// [`Qss::evaluate`], away from the loop.
     #[inline(never)]
-    pub(super) fn evaluate_entry(
+    pub(super) fn evaluate_turn(
         &mut self,
         e: &Equations,
-        entry: Entry,
+        turn: Turn,
         t: f64,
         journal: &mut Journal,
     ) -> Result<(), Failed> {
-        self.evaluate(e, e.block(entry, &self.locations), t, journal)
+        self.evaluate(e, turn, t, journal)
     }
 
-    /// Runs the program of a block at `t`.
+    /// Runs the program of a copy of a block at `t`.
     #[inline]
-    pub(super) fn run_block(&mut self, e: &Equations, block: &Block, t: f64, orders: usize) {
+    pub(super) fn run_block(&mut self, e: &Equations, (block, copy): (&Block, u32), t: f64, orders: usize) {
         self.memory[NOW] = t;
-        e.execute(&block.call, &mut self.memory, orders);
+        e.execute(&block.call, copy, &mut self.memory, orders);
     }
 
-    /// δ_ext: a new rate arrives (algorithm 3.1). `rate` holds f, ḟ, ½f̈ along q, as far as they count.
+    /// δ_ext: a new rate arrives (algorithm 3.1): f, ḟ, ½f̈ along q, as far as they count, and whether it bends.
     #[inline(always)]
     fn set_rate(
         &mut self,
         e: &Equations,
-        row: RowResult,
+        state: StateIndex,
         t: f64,
-        rate: Jet,
+        (rate, bends): (Jet, bool),
         journal: &mut Journal,
     ) -> Result<(), Failed> {
-        let i = row.state.position();
+        let i = state.position();
         let [f, f1, f2, _] = rate;
         let (f1, f2) = (if ORDER > 1 { f1 } else { 0.0 }, if ORDER > 2 { f2 } else { 0.0 });
         let mut record = self.record_mut(i);
@@ -192,18 +191,18 @@ impl<const ORDER: usize> Qss<ORDER> {
         let jet = [x, f, 0.5 * f1, f2 / 3.0];
         let size = (x.abs() + f.abs()) + (f1.abs() + f2.abs());
         if !size.is_finite() {
-            return Err(self.not_finite(row.state, t, [x, f, f1, f2]));
+            return Err(self.not_finite(state, t, [x, f, f1, f2]));
         }
         let delay = leaves::<ORDER>(jet, record.as_read().q_from(t), record.as_read().quantum());
         record.set_x(jet, t);
         self.statistics.rates += 1;
-        if row.bends {
+        if bends {
             self.bend(i, t, rate);
         } else if self.own[i].bend.bends {
             self.own[i].bend = STRAIGHT;
         }
         if journal.wanted {
-            journal.push(sophy_field::Record::Segment { time: t, state: row.state, coefficients: jet });
+            journal.push(sophy_field::Record::Segment { time: t, state, coefficients: jet });
         }
         self.due_in(i, t, t, delay);
         for &watch in e.watches_of_source.row(i) {

@@ -258,7 +258,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             let value = self.value_of(e, &e.watches[index].formula, t, 1)[0];
             changed |= self.publish(e, watch, Sign::of(value - record.bias));
             if changed {
-                self.entries.extend_from_slice(e.entries(&e.on_watch[index]));
+                self.turns.extend_from_slice(e.turns(&e.on_watch[index]));
                 self.mark_dependents(e, watch);
             }
         }
@@ -356,8 +356,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         let changed = self.publish(e, watch, sign);
         let stepped = self.step_stair(e, watch, sign, located, t)?;
         if changed || stepped {
-            for &entry in e.entries(&e.on_watch[watch.position()]) {
-                self.evaluate_entry(e, entry, t, journal).map_err(|failed| self.why(failed))?;
+            for &turn in e.turns(&e.on_watch[watch.position()]) {
+                self.evaluate_turn(e, turn, t, journal).map_err(|failed| self.why(failed))?;
             }
             self.mark_dependents(e, watch);
         }
