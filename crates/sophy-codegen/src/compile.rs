@@ -205,7 +205,7 @@ fn stair_code(system: &System, memory: &Memory, stair: &Stair) -> StairCode {
     StairCode { watches: [stair.lower, stair.upper], knots }
 }
 
-/// Memory at the start: parameters, columns and the pool of numbers and parametric expressions.
+/// Memory behind the records at the start: parameters, columns and the pool of numbers and parametric expressions.
 fn image(
     system: &System,
     memory: &Memory,
@@ -213,17 +213,20 @@ fn image(
     parameters: &[f64],
     length: u32,
 ) -> Vec<f64> {
-    let mut image = vec![0.0; length as usize];
-    let first = memory.parameters as usize;
+    let rest = memory.layout.rest;
+    let mut image = vec![0.0; (length - rest) as usize];
+    let first = (memory.parameters - rest) as usize;
     image[first..first + parameters.len()].copy_from_slice(parameters);
     for (&at, column) in memory.columns.iter().zip(system.graph.columns()) {
         let numbers = &column.numbers;
-        image[at as usize] = numbers.len() as f64;
-        image[at as usize + 1..][..numbers.len()].copy_from_slice(numbers);
+        let at = (at - rest) as usize;
+        image[at] = numbers.len() as f64;
+        image[at + 1..][..numbers.len()].copy_from_slice(numbers);
     }
     for (position, &node) in memory.pooled.iter().enumerate() {
         let mut leaf = |leaf| parameter_leaf(leaf, parameters);
-        image[memory.pool as usize + position] = evaluator.value(&system.graph, node, &mut leaf).real();
+        image[(memory.pool - rest) as usize + position] =
+            evaluator.value(&system.graph, node, &mut leaf).real();
     }
     image
 }

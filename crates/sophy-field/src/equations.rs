@@ -1,6 +1,6 @@
 use crate::{
-    Affine, AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Operand, Program,
-    Run, Site, StateIndex, Table, WatchIndex,
+    Affine, AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Memory, Operand,
+    Program, Run, Site, StateIndex, Table, WatchIndex,
 };
 use sophy_segment::Interval;
 use std::ops::Range;
@@ -25,7 +25,7 @@ use std::sync::OnceLock;
 pub struct Equations {
     /// Where things stand in memory.
     pub layout: Layout,
-    /// Memory at the start of a run: parameters and constants filled in.
+    /// What stands behind the records at the start of a run: parameters and constants filled in.
     pub image: Vec<f64>,
     /// The function that runs programs.
     pub run: Run,
@@ -269,6 +269,22 @@ impl Equations {
         self.sources.shrink_to_fit();
         self.entries.shrink_to_fit();
         self.formulas.shrink_to_fit();
+    }
+
+    /// Memory at the start of a run; records are to be filled in.
+    pub fn memory(&self) -> Memory {
+        Memory::behind(self.layout.rest as usize, &self.image)
+    }
+
+    /// Whether the rate of a state may bend, in whatever location ([`RowResult::bends`]).
+    pub fn may_bend(&self, state: StateIndex) -> bool {
+        let (own, copy) = self.own(state.position());
+        own.iter().map(|evaluation| evaluation.of(copy)).any(|turn| {
+            let locations = self.automata[turn.owner.position()].armed.len();
+            let blocks = &self.blocks[turn.first as usize..][..locations];
+            let mut rows = blocks.iter().flat_map(|block| self.rows(block));
+            rows.any(|row| row.bends && row.state.of(turn.copy) == state.0)
+        })
     }
 
     /// Runs a program on its operands, those of a copy.

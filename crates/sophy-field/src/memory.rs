@@ -11,13 +11,13 @@ pub struct Memory {
 #[repr(C, align(64))]
 struct Line([f64; 8]);
 
-impl From<&[f64]> for Memory {
-    fn from(numbers: &[f64]) -> Self {
-        let mut lines = vec![Line([0.0; 8]); numbers.len().div_ceil(8)];
-        for (line, numbers) in lines.iter_mut().zip(numbers.chunks(8)) {
-            line.0[..numbers.len()].copy_from_slice(numbers);
-        }
-        Memory { lines, length: numbers.len() }
+impl Memory {
+    /// So many zeros, and then these numbers.
+    pub fn behind(zeros: usize, numbers: &[f64]) -> Self {
+        let length = zeros + numbers.len();
+        let mut memory = Memory { lines: vec![Line([0.0; 8]); length.div_ceil(8)], length };
+        memory[zeros..].copy_from_slice(numbers);
+        memory
     }
 }
 
@@ -49,13 +49,14 @@ mod tests {
     fn numbers_are_kept_and_aligned() {
         for length in [0, 1, 7, 8, 9, 1000] {
             let numbers: Vec<f64> = (0..length).map(f64::from).collect();
-            let mut memory = Memory::from(numbers.as_slice());
-            assert_eq!(memory[..], numbers[..]);
+            let mut memory = Memory::behind(3, &numbers);
+            assert_eq!(memory[..3], [0.0; 3]);
+            assert_eq!(memory[3..], numbers[..]);
             assert_eq!(memory.clone()[..], numbers[..]);
             assert_eq!(memory.as_ptr() as usize % 64, 0);
             if let Some(last) = memory.last_mut() {
                 *last = -1.0;
-                assert_eq!(memory[length as usize - 1], -1.0);
+                assert_eq!(memory[length as usize + 2], -1.0);
             }
         }
     }

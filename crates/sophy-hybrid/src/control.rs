@@ -4,7 +4,7 @@ use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
     AutomatonIndex, Changes, Engine, Equations, EventIndex, Formula, Guard, Journal, LocationIndex, Logic,
-    NOW, Record, StateIndex, TransitionCode, TransitionIndex, TriggerCode, WatchIndex,
+    Memory, NOW, Record, StateIndex, TransitionCode, TransitionIndex, TriggerCode, WatchIndex,
 };
 use std::collections::VecDeque;
 
@@ -52,7 +52,7 @@ pub struct Control {
     /// Per automaton; of none where there are no transitions.
     zeno: Vec<Zeno>,
     /// Memory for resets and for conditions of events, if there are any.
-    memory: Vec<f64>,
+    memory: Memory,
     /// Watches that changed, transitions of a micro-step, and what they change; kept for their memory.
     changed: Vec<WatchIndex>,
     chosen: Vec<TransitionIndex>,
@@ -75,7 +75,7 @@ impl Control {
             waiting: Worklist::empty(automata),
             stale: Worklist::full(automata),
             zeno: vec![Zeno::default(); of_all(!logic.transitions.is_empty())],
-            memory: if evaluates { equations.image.clone() } else { Vec::new() },
+            memory: if evaluates { equations.memory() } else { Memory::default() },
             changed: Vec::new(),
             chosen: Vec::new(),
             emitted: Vec::new(),

@@ -165,11 +165,12 @@ pub(crate) fn watch(
         let unknown = if range.stairs.iter().all(affine) { 1e-9 } else { 1e-3 };
         *margin = margin.max(own).max(unknown * largest);
     }
+    let rest = equations.layout.rest;
     for (stair, code) in system.stairs.iter().zip(&equations.stairs) {
         if let Some(([low, high], margin)) = stair.knots.and_then(|column| margins.get(&column)) {
             // No step of a stair is below its first knot: minus infinity is a very low one.
-            equations.image[code.knots.start as usize] = (low - margin).max(f64::MIN);
-            equations.image[code.knots.end as usize - 1] = high + margin;
+            equations.image[(code.knots.start - rest) as usize] = (low - margin).max(f64::MIN);
+            equations.image[(code.knots.end - 1 - rest) as usize] = high + margin;
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::experiment::{Experiment, ExperimentError};
 use crate::grid::Grid;
 use crate::run::Run;
 use sophy_codegen::Compiled;
-use sophy_field::{AlgebraicIndex, Jet, LocationIndex, NOW, Record, SourceIndex};
+use sophy_field::{AlgebraicIndex, Jet, LocationIndex, Memory, NOW, Record, SourceIndex};
 use sophy_ir::{Leaf, Linearity, NodeId, System};
 use sophy_record::{Column, Row, Schema, Sink, SinkError, Trajectory};
 use std::sync::Arc;
@@ -27,7 +27,7 @@ pub struct Recorder {
     /// Number of states; inputs follow them.
     states: usize,
     /// What the programs of outputs read: the same segments.
-    memory: Vec<f64>,
+    memory: Memory,
     /// Whether an output reads a source.
     read: Vec<bool>,
     grid: Option<Grid>,
@@ -76,7 +76,7 @@ impl Recorder {
             segments,
             locations: run.start_locations().to_vec(),
             states: layout.states as usize,
-            memory: run.compiled().equations.image.clone(),
+            memory: run.compiled().equations.memory(),
             grid: experiment.every.map(|step| Grid::new(experiment.start, step)),
             microsteps: experiment.microsteps,
             // The start is a row even if nothing happens there.

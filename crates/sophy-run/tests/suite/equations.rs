@@ -227,7 +227,7 @@ impl Case {
     /// Memory with jets of all sources on both sides, switches as at the point.
     fn memory(&self, jets: &[Jet; 4]) -> Vec<f64> {
         let e = &self.compiled.equations;
-        let mut memory = e.image.clone();
+        let mut memory = e.memory().to_vec();
         memory[NOW] = TIME;
         for (source, jet) in jets.iter().enumerate() {
             let source = SourceIndex(source as u32);

@@ -58,11 +58,12 @@ impl<const ORDER: usize> Qss<ORDER> {
     pub(super) fn bend(&mut self, i: usize, t: f64, [_, f1, f2, f3]: Jet) {
         let quantum = self.record(i).quantum();
         let trust = self.settings.trust.max(self.still);
-        let bend = &mut self.own[i].bend;
+        let coasts = self.refreshed == i;
+        let Some(bend) = self.bend_of(i) else { return };
         bend.bends = true;
         bend.trust = trust;
         // Evaluated only because it bends it coasts on; anything else ends the coasting.
-        if self.refreshed != i {
+        if !coasts {
             bend.coasting = t;
         }
         let left_out = match ORDER {

@@ -83,7 +83,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// q of a state starts on x.
     fn synchronise(&mut self, i: usize, t: f64) {
         let x = self.record(i).x_at(t);
-        let quantum = self.own[i].quantum.next(x);
+        let quantum = self.next_quantum(i, x);
         let mut record = self.record_mut(i);
         record.set_q([x, 0.0, 0.0], t);
         record.set_quantum(quantum);

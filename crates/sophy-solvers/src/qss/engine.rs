@@ -1,8 +1,9 @@
-use super::bend::{Bend, STRAIGHT};
+use super::bend::Bend;
 use super::group::MOST;
 use super::implicit::Ahead;
+use super::own::{Own, Rule};
 use super::record::{Place, Record, RecordMut};
-use super::settings::{Quantum, Settings};
+use super::settings::Settings;
 use super::watches::WatchRecord;
 use sophy_field::{
     Agenda, AutomatonIndex, Changes, Engine, Equations, Fault, Jet, Journal, LocationIndex, Memory, NOW,
@@ -28,6 +29,10 @@ pub struct Qss<const ORDER: usize> {
     pub(super) settings: Settings,
     /// Per state.
     pub(super) own: Vec<Own>,
+    /// Of quanta.
+    pub(super) rules: Vec<Rule>,
+    /// Of the states that may bend.
+    pub(super) bends: Vec<Bend>,
     /// Per state, if quantisation is implicit.
     pub(super) ahead: Vec<Ahead>,
     /// The state whose rate is being evaluated only because it bends; `usize::MAX` if none.
@@ -66,17 +71,6 @@ pub struct Qss<const ORDER: usize> {
     pub(super) statistics: Statistics,
 }
 
-/// What belongs to a state beside its record.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Own {
-    /// How its quantum follows from its value.
-    pub(super) quantum: Quantum,
-    /// How its rate bends.
-    pub(super) bend: Bend,
-    /// How often it was scheduled at its own instant.
-    pub(super) repeats: u32,
-}
-
 /// The run cannot go on; why stands in [`Qss::fault`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Failed;
@@ -91,11 +85,13 @@ impl<const ORDER: usize> Qss<ORDER> {
     pub fn new(equations: &Equations, mut settings: Settings) -> Self {
         let layout = equations.layout;
         let (states, watches) = (layout.states as usize, equations.watches.len());
-        let rest = &equations.image[layout.rest as usize..];
-        let quanta = std::mem::take(&mut settings.quanta);
+        let rest = &equations.image;
+        let (mut own, rules) = Own::of(std::mem::take(&mut settings.quanta));
         Qss {
             ahead: vec![Ahead::NEW; if settings.implicit { states } else { 0 }],
-            own: quanta.into_iter().map(|quantum| Own { quantum, bend: STRAIGHT, repeats: 0 }).collect(),
+            bends: Own::find_bends(&mut own, equations),
+            own,
+            rules,
             settings,
             refreshed: usize::MAX,
             still: 0.0,
@@ -103,7 +99,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             watches: vec![WatchRecord::default(); watches],
             locations: vec![LocationIndex(0); equations.automata.len()],
             agenda: Agenda::new(states + watches),
-            memory: Memory::from(equations.image.as_slice()),
+            memory: equations.memory(),
             enclosed: rest.iter().map(|&value| Interval::point(value)).collect(),
             kept: Vec::new(),
             doubting: Vec::new(),

@@ -92,7 +92,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         let quanta = members_of(members, |m| {
             let x = self.record(m).x_at(t);
-            self.own[m].quantum.next(x)
+            self.next_quantum(m, x)
         });
         let hops = self.ahead[i].whereabouts.steps >= HOPS;
         let (motion, delay) = group

@@ -24,6 +24,7 @@ mod doubt;
 mod engine;
 mod group;
 mod implicit;
+mod own;
 mod record;
 mod settings;
 mod stairs;

@@ -20,7 +20,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         journal: &mut Journal,
     ) -> Result<(), Failed> {
-        if self.own[i].bend.due { self.refresh(e, i, t, journal) } else { self.step(e, i, t, journal) }
+        let bends = self.bend_of(i).is_some_and(|bend| bend.due);
+        if bends { self.refresh(e, i, t, journal) } else { self.step(e, i, t, journal) }
     }
 
     /// A state's quantised trajectory has come to the edge of its band (algorithm 3.1).
@@ -29,7 +30,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let record = self.record(i);
         let (before, x) = (record.tq(), record.x_from(t));
         self.count_repeats(i, before, t)?;
-        let quantum = self.own[i].quantum.next(x[0]);
+        let quantum = self.next_quantum(i, x[0]);
         let implicit = self.settings.implicit;
         let q = if implicit { self.quantise_ahead(e, i, t, quantum) } else { explicit::<ORDER>(x) };
         self.step_to(e, i, t, q, quantum, journal)?;
@@ -54,7 +55,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         journal: &mut Journal,
     ) -> Result<(), Failed> {
         let x = self.record(i).x_at(t);
-        let quantum = self.own[i].quantum.next(x);
+        let quantum = self.next_quantum(i, x);
         let linear = self.linear(e, i, t);
         self.ahead[i].arrive(x);
         let q = self.go_to_rest(i, t, linear, quantum);
@@ -198,8 +199,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         self.statistics.rates += 1;
         if bends {
             self.bend(i, t, rate);
-        } else if self.own[i].bend.bends {
-            self.own[i].bend = STRAIGHT;
+        } else if let Some(bend) = self.bend_of(i) {
+            *bend = STRAIGHT;
         }
         if journal.wanted {
             journal.push(sophy_field::Record::Segment { time: t, state, coefficients: jet });
@@ -226,10 +227,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         if self.settings.implicit {
             next = next.min(self.ahead[i].settles);
         }
-        let own = &mut self.own[i];
-        if own.bend.bends {
-            let trusted = evaluated + own.bend.trusted_for::<ORDER>(evaluated, next - evaluated);
-            own.bend.due = trusted < next;
+        if let Some(bend) = self.bend_of(i).filter(|bend| bend.bends) {
+            let trusted = evaluated + bend.trusted_for::<ORDER>(evaluated, next - evaluated);
+            bend.due = trusted < next;
             next = next.min(trusted);
         }
         // Rounding must not lead back; what is not a number is due at once and counted.
