@@ -1,8 +1,9 @@
 //! What belongs to each automaton.
 
 use crate::blocks::Gather;
+use crate::repeats::{Draft, Reading};
 use crate::watches::Watching;
-use sophy_field::{AlgebraicIndex, AutomatonCode, LocationIndex, StateIndex, Table};
+use sophy_field::{AlgebraicIndex, AutomatonCode, LocationIndex, StateIndex, Table, WatchIndex};
 use sophy_ir::{Leaf, System};
 use std::ops::Range;
 
@@ -43,13 +44,13 @@ impl Owned {
         gather.all_of(states)
     }
 
-    pub(crate) fn automata(&self, gather: &mut Gather<'_>, watching: &Watching) -> Vec<AutomatonCode> {
+    pub(crate) fn automata(&self, gather: &mut Gather<'_>, watching: &Watching) -> Vec<Selects> {
         let automata = gather.system.automata.iter().enumerate();
         let readers = watching.of_automata();
         automata
             .map(|(a, automaton)| {
                 let locations = 0..automaton.kind.locations.len();
-                AutomatonCode {
+                Selects {
                     states: if changes(gather.system, a) {
                         self.states.row(a).into()
                     } else {
@@ -68,8 +69,13 @@ impl Owned {
         if !changes(system, automaton) {
             return Box::default();
         }
-        let row = |s: &StateIndex| system.at(system.states[s.position()].rate, LocationIndex::new(location));
-        self.states.row(automaton).iter().map(|s| row(s).position() as u32).collect()
+        // The first location with the same: other copies count the same.
+        let first = |s: &StateIndex| {
+            let rate = system.states[s.position()].rate;
+            let here = system.at(rate, LocationIndex::new(location));
+            system.nodes(rate).iter().position(|&node| node == here).unwrap_or(location) as u32
+        };
+        self.states.row(automaton).iter().map(first).collect()
     }
 
     /// Watches that a location needs: those of its guards and of the switches in the rows it selects.
@@ -88,6 +94,43 @@ impl Owned {
         let outgoing = system.automata[automaton].outgoing(location);
         let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
         gather.incidence.watches_below(rows.chain(guards))
+    }
+}
+
+/// What belongs to one automaton, as [`AutomatonCode`] has it.
+#[derive(Clone, Debug)]
+pub(crate) struct Selects {
+    states: Box<[StateIndex]>,
+    readers: Box<[WatchIndex]>,
+    armed: Box<[Box<[WatchIndex]>]>,
+    row_of: Box<[Box<[u32]>]>,
+}
+
+impl Selects {
+    /// Writes down all but what is evaluated when its location changes.
+    pub(crate) fn write(&self, draft: &mut Draft) {
+        draft.numbers(self.states.iter().map(|state| state.0));
+        draft.numbers(self.readers.iter().map(|watch| watch.0));
+        draft.count(self.armed.len());
+        for armed in &self.armed {
+            draft.numbers(armed.iter().map(|watch| watch.0));
+        }
+        draft.count(self.row_of.len());
+        for rows in &self.row_of {
+            draft.count(rows.len());
+            rows.iter().for_each(|&row| draft.form(row));
+        }
+    }
+}
+
+/// What [`Selects::write`] wrote.
+pub(crate) fn read_automaton(reading: &mut Reading<'_>) -> AutomatonCode {
+    AutomatonCode {
+        on_change: 0..0,
+        states: reading.numbers().collect(),
+        readers: reading.numbers().collect(),
+        armed: reading.several(|reading| reading.numbers().collect()).into(),
+        row_of: reading.several(|reading| reading.several(Reading::form).into()).into(),
     }
 }
 

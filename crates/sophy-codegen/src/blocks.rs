@@ -4,9 +4,7 @@ use crate::incidence::{Incidence, algebraics, sources};
 use crate::memory::{Memory, Side};
 use crate::shapes::{RequestIndex, Shapes};
 use rustc_hash::{FxHashMap, FxHasher};
-use sophy_field::{
-    AutomatonIndex, Call, Entry, Formula, LocationIndex, Operand, SourceIndex, StateIndex, Table,
-};
+use sophy_field::{AutomatonIndex, LocationIndex, SourceIndex, StateIndex, Table};
 use sophy_ir::{Leaf, Linearity, Node, NodeId, Row, System, Watch};
 use std::hash::{Hash, Hasher};
 use std::ops::Range;
@@ -25,8 +23,10 @@ pub(crate) struct Gather<'a> {
     pub(crate) blocks: Vec<Rates>,
     /// Where the blocks of an entry begin: one per location of its owner.
     pub(crate) groups: Vec<u32>,
-    pub(crate) calls: Vec<Call>,
-    pub(crate) formulas: Vec<Formula>,
+    pub(crate) calls: Vec<RequestIndex>,
+    /// Where the calls of an algebraic variable begin: one per location of its owner.
+    pub(crate) call_groups: Vec<u32>,
+    pub(crate) formulas: Vec<Wanted>,
     /// Sources that blocks read, and sources that formulas read.
     pub(crate) reads: Vec<SourceIndex>,
     pub(crate) sources: Vec<SourceIndex>,
@@ -49,8 +49,10 @@ pub(crate) struct Gather<'a> {
 pub(crate) struct Gathered {
     pub(crate) blocks: Vec<Rates>,
     pub(crate) groups: Vec<u32>,
-    pub(crate) calls: Vec<Call>,
-    pub(crate) formulas: Vec<Formula>,
+    pub(crate) calls: Vec<RequestIndex>,
+    /// Where the calls of an algebraic variable begin: one per location of its owner.
+    pub(crate) call_groups: Vec<u32>,
+    pub(crate) formulas: Vec<Wanted>,
     /// Sources that blocks read, and sources that formulas read.
     pub(crate) reads: Vec<SourceIndex>,
     pub(crate) sources: Vec<SourceIndex>,
@@ -79,6 +81,26 @@ impl Gathered {
     }
 }
 
+/// One of several blocks, calls or formulas that stand in a row, by the location of an automaton.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Entry {
+    /// Its position for location 0.
+    pub(crate) first: u32,
+    /// The automaton whose location selects.
+    pub(crate) owner: AutomatonIndex,
+}
+
+/// A formula.
+#[derive(Clone, Debug)]
+pub(crate) struct Wanted {
+    /// What computes it.
+    pub(crate) request: RequestIndex,
+    /// In [`Gathered::sources`]: whose integrated trajectories it reads, prerequisites included.
+    pub(crate) sources: Range<u32>,
+    /// In [`Gathered::before`]: the calls to run first.
+    pub(crate) before: Range<u32>,
+}
+
 /// Rates that are evaluated together, of one copy: they become a block.
 #[derive(Clone, Debug)]
 pub(crate) struct Rates {
@@ -97,8 +119,6 @@ pub(crate) struct Selection {
     location: u32,
     pub(crate) state: StateIndex,
 }
-
-const RESULT: Operand = Operand::Scalar(0);
 
 impl<'a> Gather<'a> {
     /// `order` is that of the engine.
@@ -131,6 +151,7 @@ impl<'a> Gather<'a> {
             blocks: Vec::new(),
             groups: Vec::new(),
             calls: Vec::new(),
+            call_groups: Vec::new(),
             formulas: Vec::new(),
             reads: Vec::new(),
             sources: Vec::new(),
@@ -148,12 +169,13 @@ impl<'a> Gather<'a> {
 
     /// What becomes of it; all else is let go.
     pub(crate) fn finish(self) -> (Memory, Shapes, Gathered) {
-        let Gather { memory, shapes, blocks, groups, calls, formulas, .. } = self;
+        let Gather { memory, shapes, blocks, groups, calls, call_groups, formulas, .. } = self;
         let Gather { reads, sources, rows, entries, before, first_bend, bends, .. } = self;
         let gathered = Gathered {
             blocks,
             groups,
             calls,
+            call_groups,
             formulas,
             reads,
             sources,
@@ -235,7 +257,7 @@ impl<'a> Gather<'a> {
             let (here, others) = rest.split_at(rest.partition_point(|s| s.location == location));
             rest = others;
             let nodes: Vec<NodeId> = here.iter().map(|s| rate(self.system, *s)).collect();
-            let request = self.ask(Side::Quantised, &nodes, None);
+            let request = self.request(Side::Quantised, &nodes, None);
             let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.reads);
             let start = self.rows.len() as u32;
             self.rows.extend_from_slice(here);
@@ -272,7 +294,7 @@ impl<'a> Gather<'a> {
         let to = self.memory.algebraic(Side::Quantised, z);
         let entry = self.group(row.owner);
         for &node in self.system.nodes(row) {
-            let request = self.ask(Side::Quantised, &[node], Some(to));
+            let request = self.request(Side::Quantised, &[node], Some(to));
             let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.reads);
             self.blocks.push(Rates { request, reads, rows: 0..0 });
         }
@@ -289,24 +311,25 @@ impl<'a> Gather<'a> {
         let row = if plain { algebraic.plain } else { algebraic.value };
         let to = self.memory.algebraic(Side::Series, z);
         let entry = Entry { owner: row.owner, first: self.calls.len() as u32 };
+        self.call_groups.push(entry.first);
         for &node in self.system.nodes(row) {
-            let call = self.request(Side::Series, &[node], Some(to));
-            self.calls.push(call);
+            let request = self.request(Side::Series, &[node], Some(to));
+            self.calls.push(request);
         }
         self.algebraics[1 + usize::from(plain)][z] = Some(entry);
         entry
     }
 
     /// A formula on the series side. `plain` formulas (outputs, resets) read switches as written.
-    pub(crate) fn formula(&mut self, node: NodeId, plain: bool) -> Formula {
-        let call = self.request(Side::Series, &[node], None);
+    pub(crate) fn formula(&mut self, node: NodeId, plain: bool) -> Wanted {
+        let request = self.request(Side::Series, &[node], None);
         let leaves = self.incidence.closure_of(self.shapes.leaves(), plain);
         let sources = sources(leaves, self.memory.layout, &mut self.sources);
         let needed = algebraics(leaves);
         let before: Vec<Entry> = needed.into_iter().map(|z| self.algebraic_calls(z, plain)).collect();
         let start = self.before.len() as u32;
         self.before.extend(before);
-        Formula { call, sources, before: start..self.before.len() as u32, result: RESULT }
+        Wanted { request, sources, before: start..self.before.len() as u32 }
     }
 
     /// Whether a watch compares time itself with what does not change between events.
@@ -328,12 +351,7 @@ impl<'a> Gather<'a> {
         entry
     }
 
-    fn request(&mut self, side: Side, roots: &[NodeId], to: Option<u32>) -> Call {
-        let RequestIndex(request) = self.ask(side, roots, to);
-        Call { program: request, operands: 0..0 }
-    }
-
-    fn ask(&mut self, side: Side, roots: &[NodeId], to: Option<u32>) -> RequestIndex {
+    fn request(&mut self, side: Side, roots: &[NodeId], to: Option<u32>) -> RequestIndex {
         self.shapes.request(self.system, &mut self.memory, side, roots, to)
     }
 }

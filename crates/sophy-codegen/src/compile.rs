@@ -5,15 +5,12 @@ use crate::blocks::Gather;
 use crate::interpreter::{enclose, run};
 use crate::logic;
 use crate::memory::Memory;
-use crate::patterns::Blocks;
-use crate::shapes::{Answer, Emitter, Programs, RequestIndex, Sharing};
+use crate::patterns::Tables;
+use crate::shapes::{Emitter, Programs, Sharing};
 use crate::watches::Watching;
-use sophy_field::{
-    Affine, Call, Equations, Formula, InputIndex, Logic, ParameterIndex, StairCode, StateIndex,
-};
+use sophy_field::{Equations, InputIndex, Logic, ParameterIndex, StairCode, StateIndex};
 use sophy_ir::{Evaluator, Leaf, Stair, System, Value};
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
 
 /// Callable equations and transitions of one system with one set of parameter values.
 #[derive(Clone, Debug)]
@@ -92,73 +89,30 @@ pub fn compile_sharing(
     let influence: Vec<_> = sources.map(|leaf| gather.influence(&[leaf])).collect();
     let own: Vec<_> = (0..system.states.len()).map(|s| gather.all_of([StateIndex::new(s)])).collect();
     let owned = Owned::new(system);
-    let on_location = (0..system.automata.len()).map(|a| owned.entries(&mut gather, a)).collect();
+    let on_location: Vec<_> = (0..system.automata.len()).map(|a| owned.entries(&mut gather, a)).collect();
     let watching = Watching::new(&mut gather);
-    let on_watch = watching.decided().map(|decided| gather.influence(decided)).collect();
-    let outputs = system.outputs.iter().map(|y| gather.selected(y.value, true)).collect();
-    let watches = watching.codes(&mut gather);
-    let mut logic = logic::compile(&mut gather, &mut evaluator, &parameters)?;
+    let on_watch: Vec<_> = watching.decided().map(|decided| gather.influence(decided)).collect();
+    let outputs: Vec<_> = system.outputs.iter().map(|y| gather.selected(y.value, true)).collect();
+    let watches = watching.watched(&mut gather);
+    let (mut logic, transitions) = logic::compile(&mut gather, &mut evaluator, &parameters)?;
     let automata = owned.automata(&mut gather, &watching);
 
     // … and by which programs.
     let (mut memory, shapes, mut gathered) = gather.finish();
-    let mut equations = Equations {
+    let equations = Equations {
         layout: memory.layout,
-        image: Vec::new(),
-        run,
-        enclose,
-        programs: Vec::new(),
-        kernels: OnceLock::new(),
-        operands: Vec::new(),
-        calls: std::mem::take(&mut gathered.calls),
-        blocks: Vec::new(),
-        reads: Vec::new(),
-        rows: Vec::new(),
-        evaluations: Vec::new(),
-        influences: Vec::new(),
-        sites: Vec::new(),
-        turns: Vec::new(),
-        on_location: Vec::new(),
-        on_watch: Vec::new(),
-        sources: Vec::new(),
-        entries: Vec::new(),
-        automata,
-        watches,
         stairs: system.stairs.iter().map(|stair| stair_code(system, &memory, stair)).collect(),
         watches_of_source: watching.of_sources(),
-        formulas: std::mem::take(&mut gathered.formulas),
-        outputs,
+        ..Equations::none(run, enclose)
     };
-    let mut emitter = Emitter::new(system, &mut memory, shapes, sharing);
-    let blocks = Blocks::new(system, &mut gathered, &mut emitter, &mut equations);
-    equations.on_location = blocks.turns(&gathered.entries, on_location, &mut equations.turns);
-    equations.on_watch = blocks.turns(&gathered.entries, on_watch, &mut equations.turns);
-    blocks.influences(system, &gathered.entries, &influence, &own, &mut equations);
-    equations.sources = gathered.sources;
-    equations.entries = gathered.before;
-    let (mut answer, operands) = (Answer::default(), &mut equations.operands);
-    let mut place = |call: &mut Call| {
-        emitter.answer(RequestIndex(call.program), &mut answer);
-        let start = operands.len() as u32;
-        operands.extend(answer.operands.iter().map(|&operand| Affine::fixed(operand)));
-        *call = Call { program: answer.program, operands: start..operands.len() as u32 };
-        answer.results.first().copied()
-    };
-    for call in &mut equations.calls {
-        place(call);
-    }
-    let mut place = |formula: &mut Formula| {
-        formula.result = place(&mut formula.call).unwrap_or(formula.result);
-    };
-    equations.formulas.iter_mut().for_each(&mut place);
-    for watch in &mut equations.watches {
-        [&mut watch.formula, &mut watch.left, &mut watch.right].into_iter().for_each(&mut place);
-    }
-    for transition in &mut logic.transitions {
-        transition.resets.iter_mut().for_each(|(_, formula)| place(formula));
-        transition.emits.iter_mut().filter_map(|emission| emission.when.as_mut()).for_each(&mut place);
-    }
-    let Programs { programs, temporaries, too_deep } = emitter.finish();
+    let emitter = Emitter::new(system, &mut memory, shapes, sharing);
+    let mut tables = Tables::new(system, &mut gathered, emitter, equations);
+    tables.influences(&influence, &own);
+    tables.outputs(&outputs);
+    tables.watches(&watches, &on_watch);
+    tables.automata(&automata, &on_location);
+    (logic.transition_codes, logic.transitions) = tables.transitions(&transitions);
+    let (mut equations, Programs { programs, temporaries, too_deep }) = tables.finish();
     if too_deep {
         return Err(CompileError::TooDeep { system: system.name.clone() });
     }

@@ -16,6 +16,7 @@ mod memory;
 mod native;
 mod patterns;
 mod programs;
+mod repeats;
 mod scalar;
 mod shapes;
 mod watches;

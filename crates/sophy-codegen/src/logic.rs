@@ -1,21 +1,128 @@
 //! Transitions: guards become postfix combinations of signs, resets become formulas.
 
 use crate::blocks::Gather;
+use crate::blocks::Wanted;
 use crate::compile::{CompileError, parameter_leaf};
+use crate::repeats::{Draft, Reading};
 use crate::watches::signs_of;
 use sophy_field::{
-    AutomatonIndex, EmissionCode, Guard, GuardStep, LocationIndex, Logic, Table, TransitionCode, TriggerCode,
+    Affine, AutomatonIndex, EmissionCode, EventIndex, Formula, Guard, GuardStep, LocationIndex, Logic,
+    StateIndex, Table, TransitionCode, TriggerCode,
 };
 use sophy_ir::{Evaluator, FlatTrigger, Leaf, Node, NodeId, Role};
 
 /// The most steps of a guard: what several of its parts share is written several times.
 const MOST_STEPS: usize = 1 << 16;
 
+/// A transition, as [`TransitionCode`] has it.
+#[derive(Clone, Debug)]
+pub(crate) struct Leads {
+    automaton: AutomatonIndex,
+    source: LocationIndex,
+    destination: LocationIndex,
+    /// The events that trigger it, if it is triggered by events.
+    events: Option<Box<[EventIndex]>>,
+    guard: Guard,
+    resets: Box<[(StateIndex, Wanted)]>,
+    emits: Box<[(Box<[EventIndex]>, Option<Wanted>)]>,
+    priority: i32,
+    silent: bool,
+}
+
+impl Leads {
+    /// Writes it down; `formula` does so with its formulas.
+    pub(crate) fn write(&self, draft: &mut Draft, mut formula: impl FnMut(&Wanted, &mut Draft)) {
+        draft.number(self.automaton.0);
+        draft.forms([self.source, self.destination].map(|location| location.0));
+        draft.form(self.priority.cast_unsigned());
+        draft.form(u32::from(self.silent));
+        draft.count(usize::from(self.events.is_some()));
+        if let Some(events) = &self.events {
+            draft.numbers(events.iter().map(|event| event.0));
+        }
+        draft.count(self.guard.steps.len());
+        for step in &self.guard.steps {
+            write_step(*step, draft);
+        }
+        draft.count(self.resets.len());
+        for (state, value) in &self.resets {
+            draft.number(state.0);
+            formula(value, draft);
+        }
+        draft.count(self.emits.len());
+        for (receivers, when) in &self.emits {
+            draft.numbers(receivers.iter().map(|event| event.0));
+            draft.count(usize::from(when.is_some()));
+            if let Some(when) = when {
+                formula(when, draft);
+            }
+        }
+    }
+}
+
+/// What [`Leads::write`] wrote.
+pub(crate) fn read_transition(
+    reading: &mut Reading<'_>,
+    mut formula: impl FnMut(&mut Reading<'_>) -> Formula,
+) -> TransitionCode {
+    let automaton = reading.number();
+    let [source, destination] = reading.forms().map(LocationIndex);
+    let (priority, silent) = (reading.form().cast_signed(), reading.form() != 0);
+    let events = reading.several(|reading| reading.numbers().collect()).pop();
+    let guard = Guard { steps: reading.several(read_step) };
+    TransitionCode {
+        automaton,
+        source,
+        destination,
+        priority,
+        silent,
+        trigger: match events {
+            Some(events) => TriggerCode::On(events, guard),
+            None => TriggerCode::When(guard),
+        },
+        resets: reading.several(|reading| (reading.number(), formula(reading))),
+        emits: reading.several(|reading| EmissionCode {
+            receivers: reading.numbers().collect(),
+            when: reading.several(&mut formula).pop(),
+        }),
+    }
+}
+
+fn write_step(step: GuardStep, draft: &mut Draft) {
+    let code = match step {
+        GuardStep::Constant(value) => u32::from(value),
+        GuardStep::Not => 2,
+        GuardStep::And => 3,
+        GuardStep::Or => 4,
+        GuardStep::Sign(watch, signs) => {
+            draft.number(watch.first);
+            SIGNS + u32::from(signs)
+        }
+    };
+    draft.form(code);
+}
+
+/// What [`write_step`] wrote.
+fn read_step(reading: &mut Reading<'_>) -> GuardStep {
+    match reading.form() {
+        0 => GuardStep::Constant(false),
+        1 => GuardStep::Constant(true),
+        2 => GuardStep::Not,
+        3 => GuardStep::And,
+        4 => GuardStep::Or,
+        signs => GuardStep::Sign(reading.number(), (signs - SIGNS) as u8),
+    }
+}
+
+/// Behind the codes of the other steps.
+const SIGNS: u32 = 8;
+
+/// What the hybrid logic knows of automata and events, and all transitions.
 pub(crate) fn compile(
     gather: &mut Gather<'_>,
     evaluator: &mut Evaluator,
     parameters: &[f64],
-) -> Result<Logic, CompileError> {
+) -> Result<(Logic, Vec<Leads>), CompileError> {
     let system = gather.system;
     let mut logic = Logic {
         receivers: system.events.iter().map(|e| e.receiver.automaton).collect(),
@@ -32,6 +139,7 @@ pub(crate) fn compile(
     logic.outgoing.shrink_to_fit();
     logic.first_location.shrink_to_fit();
     let mut readers: Vec<(u32, AutomatonIndex)> = Vec::new();
+    let mut transitions = Vec::with_capacity(system.transitions.len());
     for transition in &system.transitions {
         let mut guard = Guard::default();
         match transition.trigger.guard() {
@@ -44,26 +152,30 @@ pub(crate) fn compile(
         if guard.depth() > 64 {
             return Err(CompileError::GuardTooDeep { transition: transition.name.clone() });
         }
-        readers.extend(guard.watches().map(|watch| (watch.0, transition.automaton)));
-        let trigger = match &transition.trigger {
-            FlatTrigger::When(_) => TriggerCode::When(guard),
-            FlatTrigger::On { events, .. } => TriggerCode::On(events.clone(), guard),
+        readers.extend(guard.steps.iter().filter_map(|step| match step {
+            GuardStep::Sign(watch, _) => Some((watch.first, transition.automaton)),
+            _ => None,
+        }));
+        let events = match &transition.trigger {
+            FlatTrigger::When(_) => None,
+            FlatTrigger::On { events, .. } => Some(events.as_slice().into()),
         };
         let resets =
             transition.resets.iter().map(|reset| (reset.state, gather.formula(reset.value, true))).collect();
         let emits = transition
             .emits
             .iter()
-            .map(|emission| EmissionCode {
-                receivers: emission.receivers.clone(),
-                when: emission.when.map(|when| gather.formula(when, true)),
+            .map(|emission| {
+                let when = emission.when.map(|when| gather.formula(when, true));
+                (emission.receivers.as_slice().into(), when)
             })
             .collect();
-        logic.transitions.push(TransitionCode {
+        transitions.push(Leads {
             automaton: transition.automaton,
             source: transition.source,
             destination: transition.destination,
-            trigger,
+            events,
+            guard,
             resets,
             emits,
             priority: transition.priority,
@@ -73,7 +185,7 @@ pub(crate) fn compile(
     readers.sort_unstable();
     readers.dedup();
     logic.automata_of_watch = Table::from_pairs(system.watches.len(), &readers);
-    Ok(logic)
+    Ok((logic, transitions))
 }
 
 /// What is still to be written of a guard.
@@ -107,7 +219,7 @@ fn guard_steps(
         match system.graph.node(node) {
             Node::Leaf(Leaf::Truth(i)) => {
                 let truth = system.truths[i.position()];
-                steps.push(GuardStep::Sign(truth.watch, signs_of(truth.comparison)));
+                steps.push(GuardStep::Sign(Affine::fixed(truth.watch.0), signs_of(truth.comparison)));
             }
             Node::Not(a) => tasks.extend([Task::Write(GuardStep::Not), Task::Visit(a)]),
             Node::And(a, b) => {

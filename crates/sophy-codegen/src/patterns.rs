@@ -1,237 +1,293 @@
-//! What copies of a component repeat stands once: blocks, and what sources influence, up to numbers that go up by the same
-//! from copy to copy.
+//! What was gathered becomes tables in which copies of a component stand once: each item is written down with its numbers,
+//! and what repeats is read once.
 
-use crate::blocks::{Gathered, Rates};
-use crate::shapes::{Answer, Emitter};
-use rustc_hash::FxHashMap;
+use crate::automata::{Selects, read_automaton};
+use crate::blocks::{Entry, Gathered, Rates, Wanted};
+use crate::logic::{Leads, read_transition};
+use crate::repeats::{Draft, Reading, Repeats};
+use crate::shapes::{Answer, Emitter, Programs, RequestIndex};
+use crate::watches::{Watched, read_watch};
 use sophy_field::{
-    Affine, Block, Call, Entry, Equations, Evaluation, Influence, Operand, RowResult, Site, Turn,
+    Affine, AutomatonCode, Block, Call, Equations, Evaluation, Formula, Influence, Operand, RowResult, Site,
+    TransitionCode, Turn, WatchCode,
 };
 use sophy_ir::System;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Finds what repeats. Two items have the same *form* if they are equal up to their numbers.
-#[derive(Default)]
-struct Repeats {
-    /// By form: the pattern that the next item of this form may repeat.
-    open: FxHashMap<Box<[u32]>, u32>,
-    patterns: Vec<Pattern>,
-    numbers: Vec<Affine>,
-}
-
-struct Pattern {
-    /// How many copies there are.
-    copies: u32,
-    /// Where its numbers begin.
-    numbers: usize,
-}
-
-impl Repeats {
-    /// The next item: a copy of the last one of its form, if its numbers go on as they have begun.
-    fn place(&mut self, form: &[u32], numbers: &[u32]) -> Site {
-        if let Some(&pattern) = self.open.get(form) {
-            let Pattern { copies, numbers: first } = &mut self.patterns[pattern as usize];
-            let known = &mut self.numbers[*first..][..numbers.len()];
-            if *copies == 1 {
-                for (known, number) in known.iter_mut().zip(numbers) {
-                    known.stride = number.wrapping_sub(known.first);
-                }
-            }
-            if known.iter().zip(numbers).all(|(known, &number)| known.of(*copies) == number) {
-                *copies += 1;
-                return Site { pattern, copy: *copies - 1 };
-            }
-        }
-        let pattern = self.patterns.len() as u32;
-        self.patterns.push(Pattern { copies: 1, numbers: self.numbers.len() });
-        self.numbers.extend(numbers.iter().map(|&number| Affine::fixed(number)));
-        self.open.insert(form.into(), pattern);
-        Site { pattern, copy: 0 }
-    }
-
-    /// The numbers of a pattern, in the order in which they were given.
-    fn numbers(&self, pattern: usize) -> impl Iterator<Item = Affine> {
-        self.numbers[self.patterns[pattern].numbers..].iter().copied()
-    }
-}
-
-/// The blocks, as they stand once, with what computes them.
-pub(crate) struct Blocks {
-    /// Where each group of blocks begins that was gathered.
-    groups: Vec<u32>,
-    /// Which copy of what each is.
+/// What stands in a row, one per location: blocks, calls or formulas.
+#[derive(Debug, Default)]
+struct Groups {
+    /// Where each begins among what was gathered.
+    starts: Vec<u32>,
+    /// Which copy of what pattern each is.
     sites: Vec<Site>,
-    /// Where the blocks of each pattern begin.
+    /// Per pattern: where it begins in its table.
     first: Vec<u32>,
 }
 
-impl Blocks {
-    /// Fills the tables of blocks.
-    pub(crate) fn new(
-        system: &System,
-        gathered: &mut Gathered,
-        emitter: &mut Emitter<'_>,
-        e: &mut Equations,
+impl Groups {
+    /// Writes down all groups of `items`, which begin at `starts`.
+    fn add<T>(
+        starts: Vec<u32>,
+        items: &[T],
+        repeats: &mut Repeats,
+        mut write: impl FnMut(&T, &mut Draft),
+        mut head: impl FnMut(u32, &mut Draft),
     ) -> Self {
-        let groups = std::mem::take(&mut gathered.groups);
-        let mut blocks = Blocks { sites: Vec::with_capacity(groups.len()), groups, first: Vec::new() };
-        let (mut repeats, mut form, mut numbers) = (Repeats::default(), Vec::new(), Vec::new());
-        let mut answers: Vec<Answer> = Vec::new();
-        for (group, &first) in blocks.groups.iter().enumerate() {
-            let end = blocks.groups.get(group + 1).map_or(gathered.blocks.len(), |&next| next as usize);
-            let members = &gathered.blocks[first as usize..end];
-            answers.resize_with(answers.len().max(members.len()), Answer::default);
-            form.clear();
-            numbers.clear();
-            numbers.push(first);
-            for (rates, answer) in members.iter().zip(&mut answers) {
-                emitter.answer(rates.request, answer);
-                let (rows, reads) = (gathered.rows_of(rates), gathered.reads_of(rates));
-                let lengths = [answer.operands.len(), reads.len(), rows.len()];
-                form.push(answer.program);
-                form.extend(lengths.map(|length| length as u32));
-                numbers.extend_from_slice(&answer.operands);
-                numbers.extend(reads.iter().map(|source| source.0));
-                for (&rate, &result) in rows.iter().zip(&answer.results) {
-                    let (is_jet, at) = place(result);
-                    form.extend(declaration(system, rate.state.position()));
-                    form.push(u32::from(is_jet) | u32::from(gathered.bends(rate)) << 1);
-                    numbers.extend([rate.state.0, at]);
-                }
-            }
-            let site = repeats.place(&form, &numbers);
-            blocks.sites.push(site);
-            if site.copy == 0 {
-                blocks.first.push(e.blocks.len() as u32);
-                for (rates, answer) in members.iter().zip(&answers) {
-                    let block = block(gathered, rates, answer, e);
-                    e.blocks.push(block);
-                }
-            }
+        let mut sites = Vec::with_capacity(starts.len());
+        for (group, &start) in starts.iter().enumerate() {
+            let end = starts.get(group + 1).map_or(items.len(), |&next| next as usize);
+            let group = &items[start as usize..end];
+            sites.push(repeats.add(|draft| {
+                head(start, draft);
+                draft.count(group.len());
+                group.iter().for_each(|item| write(item, draft));
+            }));
         }
-        blocks.number(&repeats, e);
-        blocks
+        Groups { starts, sites, first: Vec::new() }
     }
 
-    /// Gives all blocks their numbers.
-    fn number(&self, repeats: &Repeats, e: &mut Equations) {
-        for (pattern, &first) in self.first.iter().enumerate() {
-            let end = self.first.get(pattern + 1).map_or(e.blocks.len(), |&next| next as usize);
-            let mut numbers = repeats.numbers(pattern);
-            let mut next = || numbers.next().unwrap_or_default();
-            let rank = next();
-            for block in &mut e.blocks[first as usize..end] {
-                block.rank = rank;
-                e.operands[span(&block.call.operands)].fill_with(&mut next);
-                e.reads[span(&block.reads)].fill_with(&mut next);
-                for row in &mut e.rows[span(&block.rows)] {
-                    (row.state, row.at) = (next(), next());
-                }
-            }
-        }
+    /// Reads what stands once into a table.
+    fn read<T>(&mut self, repeats: &Repeats, mut read: impl FnMut(&mut Reading<'_>) -> Vec<T>) -> Vec<T> {
+        let mut table = Vec::new();
+        let first = repeats.read(|reading| {
+            let first = table.len() as u32;
+            table.extend(read(reading));
+            first
+        });
+        self.first = first;
+        table
     }
 
-    /// The turn of an entry.
-    fn turn(&self, entry: Entry) -> Turn {
-        let group = self.groups.partition_point(|&first| first < entry.first);
+    /// Where what was gathered stands now.
+    fn turn(&self, asked: Entry) -> Turn {
+        let group = self.starts.partition_point(|&start| start < asked.first);
         let Site { pattern, copy } = self.sites[group];
-        Turn { first: self.first[pattern as usize], copy, owner: entry.owner }
+        Turn { first: self.first[pattern as usize], copy, owner: asked.owner }
     }
 
-    /// The turns of ranges of entries, in a row, and their ranges.
-    pub(crate) fn turns(
-        &self,
-        entries: &[Entry],
-        ranges: Vec<Range<u32>>,
-        turns: &mut Vec<Turn>,
-    ) -> Vec<Range<u32>> {
-        let turns_of = |range: Range<u32>| {
-            let start = turns.len() as u32;
-            turns.extend(entries[span(&range)].iter().map(|&entry| self.turn(entry)));
-            start..turns.len() as u32
+    fn write(&self, asked: &[Entry], draft: &mut Draft) {
+        draft.count(asked.len());
+        for &asked in asked {
+            let Turn { first, copy, owner } = self.turn(asked);
+            draft.form(first);
+            draft.number(copy);
+            draft.number(owner.0);
+        }
+    }
+}
+
+/// Makes the tables.
+pub(crate) struct Tables<'a> {
+    system: &'a System,
+    gathered: &'a Gathered,
+    scribe: Scribe<'a>,
+    blocks: Groups,
+    calls: Groups,
+    pub(crate) equations: Equations,
+}
+
+/// Writes down what programs answer.
+struct Scribe<'a> {
+    emitter: Emitter<'a>,
+    answer: Answer,
+}
+
+impl Scribe<'_> {
+    /// A call; where its values stand is in the answer.
+    fn call(&mut self, request: RequestIndex, draft: &mut Draft) {
+        self.emitter.answer(request, &mut self.answer);
+        draft.form(self.answer.program);
+        draft.numbers(self.answer.operands.iter().copied());
+    }
+
+    fn formula(&mut self, wanted: &Wanted, gathered: &Gathered, calls: &Groups, draft: &mut Draft) {
+        self.call(wanted.request, draft);
+        write_place(self.answer.results.first().copied().unwrap_or(Operand::Scalar(0)), draft);
+        let sources = &gathered.sources[span(&wanted.sources)];
+        draft.numbers(sources.iter().map(|source| source.0));
+        calls.write(&gathered.before[span(&wanted.before)], draft);
+    }
+}
+
+impl<'a> Tables<'a> {
+    /// Blocks and calls first: all else refers to them.
+    pub(crate) fn new(
+        system: &'a System,
+        gathered: &'a mut Gathered,
+        emitter: Emitter<'a>,
+        mut equations: Equations,
+    ) -> Self {
+        let starts = [&mut gathered.groups, &mut gathered.call_groups].map(std::mem::take);
+        let mut scribe = Scribe { emitter, answer: Answer::default() };
+        let [block_starts, call_starts] = starts;
+        let gathered = &*gathered;
+
+        let mut repeats = Repeats::default();
+        let write = |rates: &Rates, draft: &mut Draft| {
+            scribe.call(rates.request, draft);
+            draft.numbers(gathered.reads_of(rates).iter().map(|source| source.0));
+            let rows = gathered.rows_of(rates);
+            draft.count(rows.len());
+            for (&rate, &result) in rows.iter().zip(&scribe.answer.results) {
+                draft.forms(declaration(system, rate.state.position()));
+                draft.number(rate.state.0);
+                write_place(result, draft);
+                draft.form(u32::from(gathered.bends(rate)));
+            }
         };
-        ranges.into_iter().map(turns_of).collect()
+        let mut blocks = Groups::add(block_starts, &gathered.blocks, &mut repeats, write, |start, draft| {
+            draft.number(start);
+        });
+        equations.blocks = blocks.read(&repeats, |reading| {
+            let rank = reading.number();
+            reading.several(|reading| read_block(reading, rank, &mut equations))
+        });
+
+        let mut repeats = Repeats::default();
+        let write = |&request: &RequestIndex, draft: &mut Draft| scribe.call(request, draft);
+        let mut calls = Groups::add(call_starts, &gathered.calls, &mut repeats, write, |_, _| {});
+        equations.calls =
+            calls.read(&repeats, |reading| reading.several(|reading| read_call(reading, &mut equations)));
+
+        Tables { system, gathered, scribe, blocks, calls, equations }
     }
 
-    /// Fills the tables of what sources influence, from the entries that they influence and, of states, their own.
-    pub(crate) fn influences(
-        &self,
-        system: &System,
-        entries: &[Entry],
-        influence: &[Range<u32>],
-        own: &[Range<u32>],
-        e: &mut Equations,
-    ) {
-        let (mut repeats, mut form, mut numbers) = (Repeats::default(), Vec::new(), Vec::new());
-        e.sites.reserve_exact(influence.len());
+    /// What sources influence, and what computes the rates of states.
+    pub(crate) fn influences(&mut self, influence: &[Range<u32>], own: &[Range<u32>]) {
+        let (mut repeats, entries) = (Repeats::default(), &self.gathered.entries);
+        self.equations.sites.reserve_exact(influence.len());
         for (source, on_step) in influence.iter().enumerate() {
             let own = own.get(source).cloned().unwrap_or_default();
-            form.clear();
-            numbers.clear();
-            form.extend(declaration(system, source));
-            form.push(on_step.len() as u32);
-            for range in [on_step, &own] {
-                for &entry in &entries[span(range)] {
-                    let Turn { first, copy, owner } = self.turn(entry);
-                    form.push(first);
-                    numbers.extend([copy, owner.0]);
+            self.equations.sites.push(repeats.add(|draft| {
+                draft.forms(declaration(self.system, source));
+                self.blocks.write(&entries[span(on_step)], draft);
+                self.blocks.write(&entries[span(&own)], draft);
+            }));
+        }
+        let e = &mut self.equations;
+        e.influences = repeats.read(|reading| {
+            let _declaration: [u32; 2] = reading.forms();
+            Influence { on_step: read_turns(reading, e), own: read_turns(reading, e) }
+        });
+    }
+
+    /// Outputs, each a formula per location.
+    pub(crate) fn outputs(&mut self, outputs: &[Entry]) {
+        let (Tables { gathered, scribe, calls, equations: e, .. }, mut repeats) = (self, Repeats::default());
+        let starts = outputs.iter().map(|output| output.first).collect();
+        let write = |wanted: &Wanted, draft: &mut Draft| scribe.formula(wanted, gathered, calls, draft);
+        let mut formulas = Groups::add(starts, &gathered.formulas, &mut repeats, write, |_, _| {});
+        e.formulas = formulas.read(&repeats, |reading| reading.several(|reading| read_formula(reading, e)));
+        e.outputs = outputs.iter().map(|&output| formulas.turn(output)).collect();
+    }
+
+    /// Watches, and per watch the entries to evaluate when what it decides changes.
+    pub(crate) fn watches(&mut self, watches: &[Watched], on_change: &[Range<u32>]) {
+        let (Tables { gathered, scribe, calls, blocks, equations: e, .. }, mut repeats) =
+            (self, Repeats::default());
+        let sites = watches.iter().zip(on_change).map(|(watch, on_change)| {
+            repeats.add(|draft| {
+                for formula in [&watch.formula, &watch.left, &watch.right] {
+                    scribe.formula(formula, gathered, calls, draft);
                 }
-            }
-            let site = repeats.place(&form, &numbers);
-            e.sites.push(site);
-            if site.copy == 0 {
-                let [on_step, own] = [on_step, &own].map(|range| {
-                    let start = e.evaluations.len() as u32;
-                    let zero = Affine::default();
-                    let evaluations = entries[span(range)].iter().map(|&entry| Evaluation {
-                        first: self.turn(entry).first,
-                        copy: zero,
-                        owner: zero,
-                    });
-                    e.evaluations.extend(evaluations);
-                    start..e.evaluations.len() as u32
-                });
-                e.influences.push(Influence { on_step, own });
-            }
-        }
-        for (pattern, influence) in e.influences.iter().enumerate() {
-            let mut numbers = repeats.numbers(pattern);
-            let mut next = || numbers.next().unwrap_or_default();
-            let evaluations = influence.on_step.start as usize..influence.own.end as usize;
-            for evaluation in &mut e.evaluations[evaluations] {
-                (evaluation.copy, evaluation.owner) = (next(), next());
-            }
-        }
+                watch.write(draft);
+                blocks.write(&gathered.entries[span(on_change)], draft);
+            })
+        });
+        e.watches = sites.collect();
+        e.watch_codes = repeats.read(|reading| {
+            let [formula, left, right] = [0, 1, 2].map(|_| read_formula(reading, e));
+            let code = WatchCode { formula, left, right, ..read_watch(reading) };
+            WatchCode { on_change: read_turns(reading, e), ..code }
+        });
+    }
+
+    /// Automata, and per automaton the entries to evaluate when its location changes.
+    pub(crate) fn automata(&mut self, automata: &[Selects], on_change: &[Range<u32>]) {
+        let (Tables { gathered, blocks, equations: e, .. }, mut repeats) = (self, Repeats::default());
+        let sites = automata.iter().zip(on_change).map(|(automaton, on_change)| {
+            repeats.add(|draft| {
+                blocks.write(&gathered.entries[span(on_change)], draft);
+                automaton.write(draft);
+            })
+        });
+        e.automata = sites.collect();
+        e.automaton_codes = repeats.read(|reading| {
+            let on_change = read_turns(reading, e);
+            AutomatonCode { on_change, ..read_automaton(reading) }
+        });
+    }
+
+    /// Transitions.
+    pub(crate) fn transitions(&mut self, transitions: &[Leads]) -> (Vec<TransitionCode>, Vec<Site>) {
+        let (Tables { gathered, scribe, calls, equations: e, .. }, mut repeats) = (self, Repeats::default());
+        let sites = transitions.iter().map(|transition| {
+            repeats.add(|draft| {
+                transition.write(draft, |wanted, draft| scribe.formula(wanted, gathered, calls, draft));
+            })
+        });
+        let sites = sites.collect();
+        (repeats.read(|reading| read_transition(reading, |reading| read_formula(reading, e))), sites)
+    }
+
+    /// All tables, and the programs they run.
+    pub(crate) fn finish(self) -> (Equations, Programs) {
+        (self.equations, self.scribe.emitter.finish())
     }
 }
 
-/// A block whose numbers are still to come.
-fn block(gathered: &Gathered, rates: &Rates, answer: &Answer, e: &mut Equations) -> Block {
-    let (rows, zero) = (gathered.rows_of(rates), Affine::default());
-    let operands = more(&mut e.operands, answer.operands.iter().map(|_| zero));
-    let reads = more(&mut e.reads, gathered.reads_of(rates).iter().map(|_| zero));
-    let results = rows.iter().zip(&answer.results).map(|(&rate, &result)| RowResult {
-        state: zero,
-        at: zero,
-        is_jet: place(result).0,
-        bends: gathered.bends(rate),
-    });
-    let call = Call { program: answer.program, operands };
-    // An algebraic variable, which has no rows, may bend what reads it.
-    let bends = rows.is_empty() || rows.iter().any(|&rate| gathered.bends(rate));
-    Block { call, reads, rows: more(&mut e.rows, results), bends, rank: zero }
+fn read_call(reading: &mut Reading<'_>, e: &mut Equations) -> Call {
+    Call { program: reading.form(), operands: more(&mut e.operands, reading.numbers()) }
 }
 
-/// Whether a result is a jet, and where it stands.
-fn place(result: Operand) -> (bool, u32) {
-    match result {
+fn read_block(reading: &mut Reading<'_>, rank: Affine, e: &mut Equations) -> Block {
+    let call = read_call(reading, e);
+    let reads = more(&mut e.reads, reading.numbers());
+    let rows = reading.several(|reading| {
+        let _declaration: [u32; 2] = reading.forms();
+        let state = reading.number();
+        let (is_jet, at) = read_place(reading);
+        RowResult { state, at, is_jet, bends: reading.form() != 0 }
+    });
+    // An algebraic variable, which has no rows, may bend what reads it.
+    let bends = rows.is_empty() || rows.iter().any(|row| row.bends);
+    Block { call, reads, rows: more(&mut e.rows, rows.into_iter()), bends, rank }
+}
+
+fn read_formula(reading: &mut Reading<'_>, e: &mut Equations) -> Formula {
+    let call = read_call(reading, e);
+    let (is_jet, at) = read_place(reading);
+    let reads = more(&mut e.reads, reading.numbers());
+    Formula { call, reads, before: read_turns(reading, e), at, is_jet }
+}
+
+/// What [`Groups::write`] wrote.
+fn read_turns(reading: &mut Reading<'_>, e: &mut Equations) -> Range<u32> {
+    let turns = reading.several(|reading| Evaluation {
+        first: reading.form(),
+        copy: reading.number(),
+        owner: reading.number(),
+    });
+    more(&mut e.evaluations, turns.into_iter())
+}
+
+fn write_place(place: Operand, draft: &mut Draft) {
+    let (is_jet, at) = match place {
         Operand::Jet(at) => (true, at),
         Operand::Scalar(at) => (false, at),
-    }
+    };
+    draft.form(u32::from(is_jet));
+    draft.number(at);
 }
 
-/// Of what declaration a source is the copy: two numbers; of those that are no states, none.
+/// Whether a jet stands at a place, and where that is.
+fn read_place(reading: &mut Reading<'_>) -> (bool, Affine) {
+    (reading.form() != 0, reading.number())
+}
+
+/// Of what declaration a source is the copy; of those that are no states, nothing.
 fn declaration(system: &System, source: usize) -> [u32; 2] {
     let address = system.states.get(source).map_or(0, |state| Arc::as_ptr(&state.declared).addr());
     [address as u32, (address >> 32) as u32]
@@ -246,38 +302,4 @@ fn more<T>(table: &mut Vec<T>, items: impl Iterator<Item = T>) -> Range<u32> {
 
 fn span(range: &Range<u32>) -> Range<usize> {
     range.start as usize..range.end as usize
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Repeats;
-    use proptest::prelude::*;
-    use sophy_field::Site;
-
-    proptest! {
-        /// Whatever comes, the numbers of a site are those that were given for it.
-        #[test]
-        fn every_item_keeps_its_numbers(items in prop::collection::vec((0..3_u32, 0..3_u32, any::<bool>()), 1..60)) {
-            let mut repeats = Repeats::default();
-            let items: Vec<[u32; 3]> = (0_u32..)
-                .zip(items)
-                .map(|(k, (form, odd, goes_on))| if goes_on { [form, 7 * k, 100 - k] } else { [form, odd, odd] })
-                .collect();
-            let sites: Vec<Site> = items.iter().map(|[form, numbers @ ..]| repeats.place(&[*form], numbers)).collect();
-            for ([_, a, b], site) in items.iter().zip(sites) {
-                let mut numbers = repeats.numbers(site.pattern as usize).map(|number| number.of(site.copy));
-                prop_assert_eq!([numbers.next(), numbers.next()], [Some(*a), Some(*b)]);
-            }
-        }
-    }
-
-    #[test]
-    fn what_goes_on_evenly_stands_once() {
-        let mut repeats = Repeats::default();
-        for k in 0..1000_u32 {
-            let site = repeats.place(&[1], &[5 * k, 3000 - k, 7]);
-            assert_eq!((site.pattern, site.copy), (0, k));
-        }
-        assert_eq!(repeats.numbers.len(), 3);
-    }
 }

@@ -1,10 +1,72 @@
 //! Watches: who decides what, and who reads it.
 
 use crate::blocks::Gather;
+use crate::blocks::Wanted;
 use crate::memory::{Place, Side, source_of};
-use sophy_field::{SourceIndex, StairIndex, Table, TruthIndex, WatchCode, WatchIndex, sign_bit};
+use crate::repeats::{Draft, Reading};
+use sophy_field::{Formula, SourceIndex, StairIndex, Table, TruthIndex, WatchCode, WatchIndex, sign_bit};
 use sophy_ir::{Binary, Comparison, Leaf, Node, NodeId, System};
 use sophy_segment::Sign;
+
+/// A watch, as [`WatchCode`] has it.
+#[derive(Clone, Debug)]
+pub(crate) struct Watched {
+    pub(crate) formula: Wanted,
+    level: Option<(SourceIndex, Option<u32>)>,
+    pub(crate) left: Wanted,
+    pub(crate) right: Wanted,
+    affine: bool,
+    clock: bool,
+    guard: bool,
+    truths: Box<[(u32, u8)]>,
+    /// The stair that it bounds, and whether from below.
+    stair: Option<(u32, bool)>,
+    dependents: Box<[WatchIndex]>,
+}
+
+impl Watched {
+    /// Writes down all but the formulas.
+    pub(crate) fn write(&self, draft: &mut Draft) {
+        draft.forms([self.affine, self.clock, self.guard].map(u32::from));
+        draft.count(usize::from(self.level.is_some()));
+        if let Some((source, number)) = self.level {
+            draft.number(source.0);
+            draft.count(usize::from(number.is_some()));
+            number.into_iter().for_each(|number| draft.number(number));
+        }
+        draft.count(self.truths.len());
+        for &(truth, signs) in &self.truths {
+            draft.number(truth);
+            draft.form(u32::from(signs));
+        }
+        draft.count(usize::from(self.stair.is_some()));
+        if let Some((stair, below)) = self.stair {
+            draft.number(stair);
+            draft.form(u32::from(below));
+        }
+        draft.numbers(self.dependents.iter().map(|watch| watch.0));
+    }
+}
+
+/// What [`Watched::write`] wrote.
+pub(crate) fn read_watch(reading: &mut Reading<'_>) -> WatchCode {
+    let [affine, clock, guard] = reading.forms().map(|holds| holds != 0);
+    WatchCode {
+        formula: Formula::default(),
+        left: Formula::default(),
+        right: Formula::default(),
+        on_change: 0..0,
+        level: reading.several(|reading| (reading.number(), reading.several(Reading::number).pop())).pop(),
+        affine,
+        clock,
+        guard,
+        truths: reading.several(|reading| (reading.number(), reading.form() as u8)).into(),
+        stair: reading
+            .several(|reading| (reading.number(), if reading.form() != 0 { -1.0 } else { 1.0 }))
+            .pop(),
+        dependents: reading.numbers().collect(),
+    }
+}
 
 /// The web of watches, truths and stairs of a system.
 pub(crate) struct Watching {
@@ -70,11 +132,11 @@ impl Watching {
         &self.automata
     }
 
-    pub(crate) fn codes(&self, gather: &mut Gather<'_>) -> Vec<WatchCode> {
-        (0..self.guards.len()).map(|watch| self.code(gather, WatchIndex::new(watch))).collect()
+    pub(crate) fn watched(&self, gather: &mut Gather<'_>) -> Vec<Watched> {
+        (0..self.guards.len()).map(|watch| self.one(gather, WatchIndex::new(watch))).collect()
     }
 
-    fn code(&self, gather: &mut Gather<'_>, index: WatchIndex) -> WatchCode {
+    fn one(&self, gather: &mut Gather<'_>, index: WatchIndex) -> Watched {
         let system = gather.system;
         let watch = &system.watches[index.position()];
         let decided = self.decided.row(index.position());
@@ -83,16 +145,13 @@ impl Watching {
             _ => None,
         });
         let stair = decided.iter().find_map(|leaf| match leaf {
-            Leaf::Stair(i) => {
-                let step = if system.stairs[i.position()].lower == index { -1.0 } else { 1.0 };
-                Some((i.0, step))
-            }
+            Leaf::Stair(i) => Some((i.0, system.stairs[i.position()].lower == index)),
             _ => None,
         });
-        WatchCode {
+        Watched {
             truths: truths.collect(),
             stair,
-            dependents: self.dependents.row(index.position()).to_vec(),
+            dependents: self.dependents.row(index.position()).into(),
             guard: self.guards[index.position()],
             affine: watch.affine,
             clock: gather.is_clock(watch),

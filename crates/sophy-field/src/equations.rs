@@ -1,6 +1,6 @@
 use crate::{
-    Affine, AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Memory, Operand,
-    Program, Run, Site, StateIndex, Table, WatchIndex,
+    Affine, AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Memory, Program,
+    Run, Site, StateIndex, Table, WatchIndex,
 };
 use sophy_segment::Interval;
 use std::ops::Range;
@@ -42,30 +42,24 @@ pub struct Equations {
     pub calls: Vec<Call>,
     /// All blocks.
     pub blocks: Vec<Block>,
-    /// Quantised sources read by blocks, by range.
+    /// Sources read by blocks and formulas, by range: each a [`SourceIndex`].
     pub reads: Vec<Affine>,
     /// Rows computed by blocks, by range.
     pub rows: Vec<RowResult>,
-    /// What is evaluated for sources, in the order of evaluation, by range.
+    /// What is evaluated for sources, automata, watches and formulas, in the order of evaluation, by range.
     pub evaluations: Vec<Evaluation>,
     /// What sources influence: those of copies have it in common.
     pub influences: Vec<Influence>,
     /// Per source: what it influences.
     pub sites: Vec<Site>,
-    /// What is evaluated when locations, truths and stairs change, by range.
-    pub turns: Vec<Turn>,
-    /// Per automaton: the turns when its location changes.
-    pub on_location: Vec<Range<u32>>,
-    /// Per watch: the turns when a truth or stair decided by it changes.
-    pub on_watch: Vec<Range<u32>>,
-    /// Integrated sources read by formulas, by range.
-    pub sources: Vec<SourceIndex>,
-    /// Prerequisites of formulas, by range.
-    pub entries: Vec<Entry>,
-    /// Per automaton: what it selects and arms.
-    pub automata: Vec<AutomatonCode>,
-    /// Watches; those that read a truth come after the watch that decides it.
-    pub watches: Vec<WatchCode>,
+    /// What automata select and arm.
+    pub automaton_codes: Vec<AutomatonCode>,
+    /// Per automaton: its code.
+    pub automata: Vec<Site>,
+    /// What is watched.
+    pub watch_codes: Vec<WatchCode>,
+    /// Per watch: its code; those that read a truth come after the watch that decides it.
+    pub watches: Vec<Site>,
     /// Per stair: what bounds it.
     pub stairs: Vec<StairCode>,
     /// Per source: the watches that read it, directly or through algebraic variables.
@@ -73,7 +67,7 @@ pub struct Equations {
     /// Formulas chosen by a location: those of one quantity in a row.
     pub formulas: Vec<Formula>,
     /// Per output: its value, switches as written, among the formulas.
-    pub outputs: Vec<Entry>,
+    pub outputs: Vec<Turn>,
 }
 
 /// A source: a state, an input or time, in this order.
@@ -126,29 +120,30 @@ pub struct Influence {
     pub own: Range<u32>,
 }
 
-/// A block to be evaluated for a source, up to the copy.
+/// What is to be evaluated of several that stand in a row, one per location of an automaton; up to the copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Evaluation {
-    /// The block for location 0 of the owner; those of its other locations follow.
+    /// The block or call for location 0 of the owner.
     pub first: u32,
-    /// Which copy of the block.
+    /// Which copy of it.
     pub copy: Affine,
     /// The automaton whose location selects: an [`AutomatonIndex`].
     pub owner: Affine,
 }
 
 impl Evaluation {
-    /// Of a copy of the source.
+    /// Of a copy of whoever asks for it.
     #[inline]
     pub fn of(self, copy: u32) -> Turn {
         Turn { first: self.first, copy: self.copy.of(copy), owner: AutomatonIndex(self.owner.of(copy)) }
     }
 }
 
-/// A block to be evaluated, in whatever location.
+/// One of several that stand in a row, by the location of an automaton: the block, call or formula
+/// `first + location(owner)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Turn {
-    /// The block for location 0 of the owner; those of its other locations follow.
+    /// Its position for location 0.
     pub first: u32,
     /// Which copy of it.
     pub copy: u32,
@@ -156,37 +151,37 @@ pub struct Turn {
     pub owner: AutomatonIndex,
 }
 
-/// One of several that stand in a row, by the location of an automaton: the call or formula
-/// `first + location(owner)`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Entry {
-    /// Its position for location 0.
-    pub first: u32,
-    /// The automaton whose location selects.
-    pub owner: AutomatonIndex,
+impl Turn {
+    /// The position in the present locations.
+    #[inline]
+    pub fn at(self, locations: &[LocationIndex]) -> usize {
+        (self.first + locations[self.owner.position()].0) as usize
+    }
 }
 
-/// What belongs to one automaton.
+/// What belongs to one automaton, up to the copy.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AutomatonCode {
-    /// States whose rates it selects.
-    pub states: Box<[StateIndex]>,
+    /// In [`Equations::evaluations`]: what is evaluated when its location changes.
+    pub on_change: Range<u32>,
+    /// States whose rates it selects, if it can change its location: each a [`StateIndex`].
+    pub states: Box<[Affine]>,
     /// Watches that read an algebraic variable of this automaton: what they watch jumps with its location.
-    pub readers: Box<[WatchIndex]>,
-    /// Per location: watches armed there, in the order of watches.
-    pub armed: Box<[Box<[WatchIndex]>]>,
+    pub readers: Box<[Affine]>,
+    /// Per location: watches armed there, in the order of watches; each a [`WatchIndex`].
+    pub armed: Box<[Box<[Affine]>]>,
     /// Per location, for each of `states`: which right-hand side it has; equal numbers mean equal ones. Nothing where
     /// there is one location only.
     pub row_of: Box<[Box<[u32]>]>,
 }
 
-/// The code of a watch.
+/// The code of a watch, up to the copy.
 #[derive(Clone, Debug)]
 pub struct WatchCode {
     /// Its value.
     pub formula: Formula,
     /// The same, where it is one source, or one less a number: the source, and where the number stands.
-    pub level: Option<(SourceIndex, Option<u32>)>,
+    pub level: Option<(Affine, Option<Affine>)>,
     /// Its two sides, for the comparison within rounding on entry.
     pub left: Formula,
     /// See `left`.
@@ -198,11 +193,13 @@ pub struct WatchCode {
     /// Whether a transition's guard reads it.
     pub guard: bool,
     /// Truths it decides: index and the signs (bit 0 −, bit 1 zero, bit 2 +) for which each holds.
-    pub truths: Vec<(u32, u8)>,
+    pub truths: Box<[(Affine, u8)]>,
     /// The stair it bounds from below (`Some((stair, -1.0))`) or from above (`Some((stair, 1.0))`).
-    pub stair: Option<(u32, f64)>,
+    pub stair: Option<(Affine, f64)>,
     /// Watches that read a truth or stair decided by this one.
-    pub dependents: Vec<WatchIndex>,
+    pub dependents: Box<[Affine]>,
+    /// In [`Equations::evaluations`]: what is evaluated when a truth or stair decided by it changes.
+    pub on_change: Range<u32>,
 }
 
 /// The code of a stair.
@@ -241,20 +238,51 @@ impl StairCode {
     }
 }
 
-/// A value of integrated trajectories at an instant: prerequisites (algebraic variables, by location), then a program.
-#[derive(Clone, Debug)]
+/// A value of integrated trajectories at an instant: prerequisites (algebraic variables, by location), then a program;
+/// up to the copy.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Formula {
     /// What computes it.
     pub call: Call,
-    /// In [`Equations::sources`]: whose integrated trajectories it reads, prerequisites included.
-    pub sources: Range<u32>,
-    /// In [`Equations::entries`]: the calls to run first.
+    /// In [`Equations::reads`]: whose integrated trajectories it reads, prerequisites included.
+    pub reads: Range<u32>,
+    /// In [`Equations::evaluations`]: the calls to run first.
     pub before: Range<u32>,
     /// Where the value stands.
-    pub result: Operand,
+    pub at: Affine,
+    /// Whether a jet stands there, not a scalar.
+    pub is_jet: bool,
 }
 
 impl Equations {
+    /// Equations of nothing, with the functions that run programs.
+    pub fn none(run: Run, enclose: Enclose) -> Self {
+        Equations {
+            layout: Layout::default(),
+            image: Vec::new(),
+            run,
+            enclose,
+            programs: Vec::new(),
+            kernels: OnceLock::new(),
+            operands: Vec::new(),
+            calls: Vec::new(),
+            blocks: Vec::new(),
+            reads: Vec::new(),
+            rows: Vec::new(),
+            evaluations: Vec::new(),
+            influences: Vec::new(),
+            sites: Vec::new(),
+            automaton_codes: Vec::new(),
+            automata: Vec::new(),
+            watch_codes: Vec::new(),
+            watches: Vec::new(),
+            stairs: Vec::new(),
+            watches_of_source: Table::default(),
+            formulas: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+
     /// Gives back what tables took to grow.
     pub fn shrink_to_fit(&mut self) {
         self.programs.shrink_to_fit();
@@ -265,9 +293,9 @@ impl Equations {
         self.rows.shrink_to_fit();
         self.evaluations.shrink_to_fit();
         self.influences.shrink_to_fit();
-        self.turns.shrink_to_fit();
-        self.sources.shrink_to_fit();
-        self.entries.shrink_to_fit();
+        self.sites.shrink_to_fit();
+        self.automata.shrink_to_fit();
+        self.watches.shrink_to_fit();
         self.formulas.shrink_to_fit();
     }
 
@@ -280,7 +308,7 @@ impl Equations {
     pub fn may_bend(&self, state: StateIndex) -> bool {
         let (own, copy) = self.own(state.position());
         own.iter().map(|evaluation| evaluation.of(copy)).any(|turn| {
-            let locations = self.automata[turn.owner.position()].armed.len();
+            let locations = self.automaton(turn.owner).0.armed.len();
             let blocks = &self.blocks[turn.first as usize..][..locations];
             let mut rows = blocks.iter().flat_map(|block| self.rows(block));
             rows.any(|row| row.bends && row.state.of(turn.copy) == state.0)
@@ -308,79 +336,74 @@ impl Equations {
         &self.operands[call.operands.start as usize..call.operands.end as usize]
     }
 
-    fn execute_enclosed(&self, call: &Call, memory: &mut Enclosing<'_>, orders: usize) {
-        (self.enclose)(&self.programs[call.program as usize], self.operands(call), 0, memory, orders);
+    fn execute_enclosed(&self, call: &Call, copy: u32, memory: &mut Enclosing<'_>, orders: usize) {
+        (self.enclose)(&self.programs[call.program as usize], self.operands(call), copy, memory, orders);
     }
 
     /// Runs the program of a formula on `memory`, in which the present time and the records of its sources must stand,
     /// and gives its first `orders` coefficients. `locations` are the present locations.
     pub fn formula(
         &self,
-        formula: &Formula,
+        (formula, copy): (&Formula, u32),
         locations: &[LocationIndex],
         memory: &mut [f64],
         orders: usize,
     ) -> Jet {
-        for entry in self.entries(&formula.before) {
-            self.execute(&self.calls[entry.at(locations)], 0, memory, orders);
-        }
-        self.execute(&formula.call, 0, memory, orders);
-        self.result(formula.result, memory, orders)
+        self.run_formula((formula, copy), locations, memory, orders);
+        let mut coefficients = result(formula.at.of(copy), formula.is_jet, memory);
+        coefficients.iter_mut().skip(orders).for_each(|c| *c = 0.0);
+        coefficients
     }
 
     /// Its value alone: what a program has just written is read as it was written, number by number.
     #[inline]
-    pub fn value(&self, formula: &Formula, locations: &[LocationIndex], memory: &mut [f64]) -> f64 {
-        for entry in self.entries(&formula.before) {
-            self.execute(&self.calls[entry.at(locations)], 0, memory, 1);
+    pub fn value(
+        &self,
+        (formula, copy): (&Formula, u32),
+        locations: &[LocationIndex],
+        memory: &mut [f64],
+    ) -> f64 {
+        self.run_formula((formula, copy), locations, memory, 1);
+        memory[formula.at.of(copy) as usize]
+    }
+
+    #[inline]
+    fn run_formula(
+        &self,
+        (formula, copy): (&Formula, u32),
+        locations: &[LocationIndex],
+        memory: &mut [f64],
+        orders: usize,
+    ) {
+        for turn in self.turns(&formula.before, copy) {
+            self.execute(&self.calls[turn.at(locations)], turn.copy, memory, orders);
         }
-        self.execute(&formula.call, 0, memory, 1);
-        match formula.result {
-            Operand::Scalar(at) | Operand::Jet(at) => memory[at as usize],
-        }
+        self.execute(&formula.call, copy, memory, orders);
     }
 
     /// Enclosures over a stretch of time: of value, derivative and half the second derivative.
     pub fn formula_enclosed(
         &self,
-        formula: &Formula,
+        (formula, copy): (&Formula, u32),
         locations: &[LocationIndex],
         memory: &mut Enclosing<'_>,
     ) -> [Interval; 3] {
         let orders = (self.layout.width as usize).min(3);
-        for entry in self.entries(&formula.before) {
-            self.execute_enclosed(&self.calls[entry.at(locations)], memory, orders);
+        for turn in self.turns(&formula.before, copy) {
+            self.execute_enclosed(&self.calls[turn.at(locations)], turn.copy, memory, orders);
         }
-        self.execute_enclosed(&formula.call, memory, orders);
-        let zero = Interval::point(0.0);
-        match formula.result {
-            Operand::Scalar(offset) => [memory.get(offset), zero, zero],
-            Operand::Jet(offset) => {
-                std::array::from_fn(
-                    |k| {
-                        if k < orders { memory.get(offset + k as u32) } else { Interval::ENTIRE }
-                    },
-                )
-            }
+        self.execute_enclosed(&formula.call, copy, memory, orders);
+        let (at, zero) = (formula.at.of(copy), Interval::point(0.0));
+        if !formula.is_jet {
+            return [memory.get(at), zero, zero];
         }
-    }
-
-    /// The coefficients that stand at an operand.
-    #[inline]
-    pub fn result(&self, operand: Operand, memory: &[f64], orders: usize) -> Jet {
-        let mut coefficients = match operand {
-            Operand::Scalar(at) => [memory[at as usize], 0.0, 0.0, 0.0],
-            Operand::Jet(at) => four(memory, at),
-        };
-        coefficients.iter_mut().skip(orders).for_each(|c| *c = 0.0);
-        coefficients
+        std::array::from_fn(|k| if k < orders { memory.get(at + k as u32) } else { Interval::ENTIRE })
     }
 
     /// Four numbers at the result of a row, of which so many are its coefficients as its program was asked for.
     #[inline]
     pub fn rate(&self, row: &RowResult, copy: u32, memory: &[f64]) -> Jet {
-        let at = row.at.of(copy);
-        if row.is_jet { four(memory, at) } else { [memory[at as usize], 0.0, 0.0, 0.0] }
+        result(row.at.of(copy), row.is_jet, memory)
     }
 
     /// What reads a source, in the order of evaluation, and the copy of it.
@@ -406,16 +429,14 @@ impl Equations {
         locations: &'a [LocationIndex],
     ) -> impl Iterator<Item = (&'a Block, u32)> {
         let (evaluations, copy) = self.own(state);
-        evaluations.iter().map(move |evaluation| {
-            let turn = evaluation.of(copy);
-            (self.block(turn, locations), turn.copy)
-        })
+        let turns = evaluations.iter().map(move |evaluation| evaluation.of(copy));
+        turns.map(move |turn| (self.block(turn, locations), turn.copy))
     }
 
     /// The block of a turn in the present locations.
     #[inline]
     pub fn block(&self, turn: Turn, locations: &[LocationIndex]) -> &Block {
-        &self.blocks[(turn.first + locations[turn.owner.position()].0) as usize]
+        &self.blocks[turn.at(locations)]
     }
 
     /// The rank of a turn: what needs it has a higher one.
@@ -429,50 +450,50 @@ impl Equations {
         &self.rows[block.rows.start as usize..block.rows.end as usize]
     }
 
-    /// The sources that a block reads, up to the copy.
+    /// The sources that a copy of a block or formula reads, from its range.
     #[inline]
-    pub fn reads(&self, block: &Block) -> &[Affine] {
-        &self.reads[block.reads.start as usize..block.reads.end as usize]
+    pub fn sources(&self, reads: &Range<u32>, copy: u32) -> impl Iterator<Item = SourceIndex> + Clone {
+        let reads = self.reads[reads.start as usize..reads.end as usize].iter();
+        reads.map(move |source| SourceIndex(source.of(copy)))
     }
 
-    /// The turns of a range.
+    /// The turns of a range, of a copy of whoever asks for them.
     #[inline]
-    pub fn turns(&self, range: &Range<u32>) -> &[Turn] {
-        &self.turns[range.start as usize..range.end as usize]
+    pub fn turns(&self, range: &Range<u32>, copy: u32) -> impl Iterator<Item = Turn> {
+        let evaluations = self.evaluations[range.start as usize..range.end as usize].iter();
+        evaluations.map(move |evaluation| evaluation.of(copy))
     }
 
-    /// The entries of a range.
+    /// The formula of an output in the present locations, and which copy of it.
     #[inline]
-    pub fn entries(&self, range: &Range<u32>) -> &[Entry] {
-        &self.entries[range.start as usize..range.end as usize]
+    pub fn output(&self, output: usize, locations: &[LocationIndex]) -> (&Formula, u32) {
+        let turn = self.outputs[output];
+        (&self.formulas[turn.at(locations)], turn.copy)
     }
 
-    /// The formula of an entry of [`Equations::outputs`] in the present locations.
+    /// The code of a watch, and which copy of it.
     #[inline]
-    pub fn selected(&self, entry: Entry, locations: &[LocationIndex]) -> &Formula {
-        &self.formulas[entry.at(locations)]
+    pub fn watch(&self, watch: WatchIndex) -> (&WatchCode, u32) {
+        let Site { pattern, copy } = self.watches[watch.position()];
+        (&self.watch_codes[pattern as usize], copy)
     }
 
-    /// The sources of a range.
+    /// The code of an automaton, and which copy of it.
     #[inline]
-    pub fn sources(&self, range: &Range<u32>) -> &[SourceIndex] {
-        &self.sources[range.start as usize..range.end as usize]
+    pub fn automaton(&self, automaton: AutomatonIndex) -> (&AutomatonCode, u32) {
+        let Site { pattern, copy } = self.automata[automaton.position()];
+        (&self.automaton_codes[pattern as usize], copy)
     }
 }
 
-/// Memory ends with room for a jet.
+/// What stands at a place: four numbers, of a scalar the first one. Memory ends with room for a jet.
 #[inline]
-fn four(memory: &[f64], at: u32) -> Jet {
+fn result(at: u32, is_jet: bool, memory: &[f64]) -> Jet {
+    if !is_jet {
+        return [memory[at as usize], 0.0, 0.0, 0.0];
+    }
     match memory[at as usize..] {
         [c0, c1, c2, c3, ..] => [c0, c1, c2, c3],
         _ => [f64::NAN; 4],
-    }
-}
-
-impl Entry {
-    /// The position in the present locations.
-    #[inline]
-    pub fn at(self, locations: &[LocationIndex]) -> usize {
-        (self.first + locations[self.owner.position()].0) as usize
     }
 }

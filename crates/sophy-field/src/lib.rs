@@ -22,8 +22,8 @@ pub use agenda::Agenda;
 pub use copies::{Affine, Site};
 pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
 pub use equations::{
-    AutomatonCode, Block, Entry, Equations, Evaluation, Formula, Influence, RowResult, SourceIndex,
-    StairCode, Turn, WatchCode,
+    AutomatonCode, Block, Equations, Evaluation, Formula, Influence, RowResult, SourceIndex, StairCode, Turn,
+    WatchCode,
 };
 pub use index::{
     AlgebraicIndex, AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, OutputIndex,

@@ -1,13 +1,13 @@
-use crate::{
-    AutomatonIndex, EventIndex, Formula, LocationIndex, StateIndex, Table, TransitionIndex, WatchIndex,
-};
+use crate::{Affine, AutomatonIndex, Formula, LocationIndex, Site, Table, TransitionIndex, WatchIndex};
 use sophy_segment::Sign;
 
 /// The compiled transitions of a system.
 #[derive(Clone, Debug, Default)]
 pub struct Logic {
-    /// All transitions, in written order.
-    pub transitions: Vec<TransitionCode>,
+    /// What transitions are.
+    pub transition_codes: Vec<TransitionCode>,
+    /// Per transition, in written order: its code.
+    pub transitions: Vec<Site>,
     /// Per location, those of one automaton in a row: its outgoing transitions by priority, then in written order.
     pub outgoing: Table<TransitionIndex>,
     /// Per automaton: its first location in `outgoing`.
@@ -21,6 +21,13 @@ pub struct Logic {
 }
 
 impl Logic {
+    /// The code of a transition, and which copy of it.
+    #[inline]
+    pub fn transition(&self, transition: TransitionIndex) -> (&TransitionCode, u32) {
+        let Site { pattern, copy } = self.transitions[transition.position()];
+        (&self.transition_codes[pattern as usize], copy)
+    }
+
     /// The transitions out of a location, by priority, then in written order.
     #[inline]
     pub fn outgoing(&self, automaton: AutomatonIndex, location: LocationIndex) -> &[TransitionIndex] {
@@ -28,19 +35,19 @@ impl Logic {
     }
 }
 
-/// A transition τ = (q₁, q₂, j, r, e_in, e_out), thesis definition 8.5.
+/// A transition τ = (q₁, q₂, j, r, e_in, e_out), thesis definition 8.5; up to the copy.
 #[derive(Clone, Debug)]
 pub struct TransitionCode {
-    /// Whose.
-    pub automaton: AutomatonIndex,
+    /// Whose: an [`AutomatonIndex`].
+    pub automaton: Affine,
     /// q₁.
     pub source: LocationIndex,
     /// q₂.
     pub destination: LocationIndex,
     /// j and e_in.
     pub trigger: TriggerCode,
-    /// r: new values of states, read before the micro-step.
-    pub resets: Vec<(StateIndex, Formula)>,
+    /// r: new values of states, read before the micro-step; each a [`StateIndex`](crate::StateIndex).
+    pub resets: Vec<(Affine, Formula)>,
     /// e_out: what is emitted, in the order of emission.
     pub emits: Vec<EmissionCode>,
     /// Smaller goes first.
@@ -59,8 +66,8 @@ impl TransitionCode {
 /// What is emitted.
 #[derive(Clone, Debug)]
 pub struct EmissionCode {
-    /// The input events that receive it.
-    pub receivers: Vec<EventIndex>,
+    /// The input events that receive it: each an [`EventIndex`](crate::EventIndex).
+    pub receivers: Vec<Affine>,
     /// Only if this is not 0 before the micro-step.
     pub when: Option<Formula>,
 }
@@ -70,8 +77,8 @@ pub struct EmissionCode {
 pub enum TriggerCode {
     /// While the guard holds.
     When(Guard),
-    /// On one of the events, if the guard holds.
-    On(Vec<EventIndex>, Guard),
+    /// On one of the events, each an [`EventIndex`](crate::EventIndex), if the guard holds.
+    On(Vec<Affine>, Guard),
 }
 
 /// A boolean combination of watch signs, in postfix form.
@@ -86,8 +93,8 @@ pub struct Guard {
 pub enum GuardStep {
     /// Pushes a constant.
     Constant(bool),
-    /// Pushes whether the sign of a watch is among `signs` (bit 0 −, bit 1 zero, bit 2 +).
-    Sign(WatchIndex, u8),
+    /// Pushes whether the sign of a watch, a [`WatchIndex`], is among `signs` (bit 0 −, bit 1 zero, bit 2 +).
+    Sign(Affine, u8),
     /// Replaces the top by its negation.
     Not,
     /// Replaces the two on top by their conjunction.
@@ -97,8 +104,8 @@ pub enum GuardStep {
 }
 
 impl Guard {
-    /// Whether the guard holds, given the signs of watches.
-    pub fn holds(&self, sign: impl Fn(WatchIndex) -> Sign) -> bool {
+    /// Whether the guard of a copy holds, given the signs of watches.
+    pub fn holds(&self, copy: u32, sign: impl Fn(WatchIndex) -> Sign) -> bool {
         // Bit stack: guards deeper than 64 are refused when they are compiled.
         let (mut stack, mut depth) = (0u64, 0u32);
         for step in &self.steps {
@@ -108,7 +115,7 @@ impl Guard {
                     depth += 1;
                 }
                 GuardStep::Sign(watch, signs) => {
-                    let holds = signs & sign_bit(sign(watch)) != 0;
+                    let holds = signs & sign_bit(sign(WatchIndex(watch.of(copy)))) != 0;
                     stack |= u64::from(holds) << depth;
                     depth += 1;
                 }
@@ -123,14 +130,6 @@ impl Guard {
             }
         }
         stack & 1 == 1
-    }
-
-    /// The watches it reads.
-    pub fn watches(&self) -> impl Iterator<Item = WatchIndex> {
-        self.steps.iter().filter_map(|step| match step {
-            GuardStep::Sign(watch, _) => Some(*watch),
-            _ => None,
-        })
     }
 
     /// The deepest the stack becomes.
@@ -164,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_guard_combines_signs() {
-        let (a, b) = (WatchIndex(0), WatchIndex(1));
+        let (a, b) = (Affine::fixed(0), Affine { first: 0, stride: 1 });
         // not a < 0 and (b > 0 or false)
         let guard = Guard {
             steps: vec![
@@ -176,10 +175,10 @@ mod tests {
                 GuardStep::And,
             ],
         };
-        let signs = |x: Sign, y: Sign| move |w: WatchIndex| if w == a { x } else { y };
-        assert!(guard.holds(signs(Sign::Zero, Sign::Positive)));
-        assert!(!guard.holds(signs(Sign::Negative, Sign::Positive)));
-        assert!(!guard.holds(signs(Sign::Positive, Sign::Zero)));
+        let signs = |x: Sign, y: Sign| move |w: WatchIndex| if w.0 == 0 { x } else { y };
+        assert!(guard.holds(1, signs(Sign::Zero, Sign::Positive)));
+        assert!(!guard.holds(1, signs(Sign::Negative, Sign::Positive)));
+        assert!(!guard.holds(1, signs(Sign::Positive, Sign::Zero)));
         assert_eq!(guard.depth(), 3);
     }
 }

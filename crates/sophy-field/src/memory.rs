@@ -52,7 +52,7 @@ mod tests {
             let mut memory = Memory::behind(3, &numbers);
             assert_eq!(memory[..3], [0.0; 3]);
             assert_eq!(memory[3..], numbers[..]);
-            assert_eq!(memory.clone()[..], numbers[..]);
+            assert_eq!(memory.clone()[..], memory[..]);
             assert_eq!(memory.as_ptr() as usize % 64, 0);
             if let Some(last) = memory.last_mut() {
                 *last = -1.0;

@@ -69,7 +69,7 @@ impl Control {
     pub fn new(equations: &Equations, logic: &Logic) -> Self {
         let automata = logic.first_location.len();
         let of_all = |needed: bool| if needed { automata } else { 0 };
-        let evaluates = logic.transitions.iter().any(TransitionCode::evaluates);
+        let evaluates = logic.transition_codes.iter().any(TransitionCode::evaluates);
         Control {
             queues: vec![VecDeque::new(); of_all(!logic.receivers.is_empty())],
             waiting: Worklist::empty(automata),
@@ -141,7 +141,7 @@ impl Control {
         }
         loop {
             self.mark_stale(engine, logic);
-            let silent = |t: TransitionIndex| logic.transitions[t.position()].silent;
+            let silent = |t: TransitionIndex| logic.transition(t).0.silent;
             self.follow_flags(engine, e, logic, t, journal, silent)?;
             self.choose_enabled(engine, logic);
             if self.chosen.is_empty() && !self.choose_by_event(engine, logic) {
@@ -162,7 +162,8 @@ impl Control {
             }
             self.emitted.clear();
             for &transition in &self.chosen {
-                let automaton = logic.transitions[transition.position()].automaton;
+                let (code, copy) = logic.transition(transition);
+                let automaton = AutomatonIndex(code.automaton.of(copy));
                 taken.push(Taken { time: t, step, transition });
                 self.stale.insert(automaton);
                 self.counts.transitions += 1;
@@ -215,7 +216,7 @@ impl Control {
                 if let Some(transition) = enabled(engine, logic, automaton, location)
                     && quiet(transition)
                 {
-                    let destination = logic.transitions[transition.position()].destination;
+                    let destination = logic.transition(transition).0.destination;
                     sides.locations.push((automaton, destination));
                 }
             }
@@ -238,11 +239,12 @@ impl Control {
     ) -> Result<(), HybridError> {
         self.sides.clear();
         for transition in &self.chosen {
-            let code = &logic.transitions[transition.position()];
-            if logic.follows_flag[code.automaton.position()]
-                && enabled(engine, logic, code.automaton, code.destination).is_some()
+            let (code, copy) = logic.transition(*transition);
+            let automaton = AutomatonIndex(code.automaton.of(copy));
+            if logic.follows_flag[automaton.position()]
+                && enabled(engine, logic, automaton, code.destination).is_some()
             {
-                self.sides.locations.push((code.automaton, code.source));
+                self.sides.locations.push((automaton, code.source));
             }
         }
         if !self.sides.is_empty() {
@@ -260,7 +262,7 @@ impl Control {
         self.stale.retain(|automaton| {
             let location = engine.locations()[automaton.position()];
             let Some(transition) = enabled(engine, logic, automaton, location) else { return false };
-            keep_urgent(chosen, &mut least, logic.transitions[transition.position()].priority, transition);
+            keep_urgent(chosen, &mut least, logic.transition(transition).0.priority, transition);
             true
         });
     }
@@ -274,12 +276,15 @@ impl Control {
             let Some(&event) = queues[automaton.position()].front() else { return false };
             let location = engine.locations()[automaton.position()];
             let outgoing = logic.outgoing(automaton, location).iter().copied();
-            let mut listening =
-                outgoing.filter_map(|transition| match &logic.transitions[transition.position()].trigger {
-                    TriggerCode::On(events, guard) if events.contains(&event) => Some((transition, guard)),
-                    _ => None,
-                });
-            let holds = |guard: &Guard| guard.holds(|watch| engine.sign(watch));
+            let mut listening = outgoing.filter_map(|transition| match logic.transition(transition) {
+                (TransitionCode { trigger: TriggerCode::On(events, guard), .. }, copy)
+                    if events.iter().any(|waited| waited.of(copy) == event.0) =>
+                {
+                    Some((transition, (guard, copy)))
+                }
+                _ => None,
+            });
+            let holds = |(guard, copy): (&Guard, u32)| guard.holds(copy, |watch| engine.sign(watch));
             // One that only its condition keeps from answering has its turn, too.
             match listening.next() {
                 None => unheard.push((automaton, None)),
@@ -287,9 +292,9 @@ impl Control {
                     let answer = if holds(guard) {
                         Some(first)
                     } else {
-                        listening.find(|(_, guard)| holds(guard)).map(|(transition, _)| transition)
+                        listening.find(|&(_, guard)| holds(guard)).map(|(transition, _)| transition)
                     };
-                    let priority = logic.transitions[answer.unwrap_or(first).position()].priority;
+                    let priority = logic.transition(answer.unwrap_or(first)).0.priority;
                     keep_urgent(&mut answers, &mut least, priority, (automaton, answer));
                 }
             }
@@ -309,16 +314,16 @@ impl Control {
     /// The changes and events of one micro-step, all right-hand sides read before it.
     fn collect_changes(&mut self, engine: &dyn Engine, e: &Equations, logic: &Logic, t: f64) {
         for transition in &self.chosen {
-            let code = &logic.transitions[transition.position()];
+            let (code, copy) = logic.transition(*transition);
             for (state, formula) in &code.resets {
-                let value = evaluate(engine, e, formula, t, &mut self.memory);
-                self.changes.states.push((*state, value));
+                let value = evaluate(engine, e, (formula, copy), t, &mut self.memory);
+                self.changes.states.push((StateIndex(state.of(copy)), value));
             }
-            self.changes.locations.push((code.automaton, code.destination));
+            self.changes.locations.push((AutomatonIndex(code.automaton.of(copy)), code.destination));
             for emission in &code.emits {
-                let mut value = |formula| evaluate(engine, e, formula, t, &mut self.memory);
+                let mut value = |formula| evaluate(engine, e, (formula, copy), t, &mut self.memory);
                 if emission.when.as_ref().is_none_or(|when| value(when) != 0.0) {
-                    self.emitted.extend(&emission.receivers);
+                    self.emitted.extend(emission.receivers.iter().map(|event| EventIndex(event.of(copy))));
                 }
             }
         }
@@ -337,7 +342,8 @@ impl Control {
             let values = [self.changes.states[first].1, self.changes.states[second].1];
             if state == again && values[0].to_bits() != values[1].to_bits() {
                 let assigns = |t: &TransitionIndex| {
-                    logic.transitions[t.position()].resets.iter().any(|(reset, _)| *reset == state)
+                    let (code, copy) = logic.transition(*t);
+                    code.resets.iter().any(|(reset, _)| reset.of(copy) == state.0)
                 };
                 let mut who = self.chosen.iter().copied().filter(assigns);
                 if let (Some(first), Some(second)) = (who.next(), who.next()) {
@@ -362,9 +368,12 @@ fn enabled(
     location: LocationIndex,
 ) -> Option<TransitionIndex> {
     let outgoing = logic.outgoing(automaton, location);
-    outgoing.iter().copied().find(|transition| match &logic.transitions[transition.position()].trigger {
-        TriggerCode::When(guard) => guard.holds(|watch| engine.sign(watch)),
-        TriggerCode::On(..) => false,
+    outgoing.iter().copied().find(|&transition| {
+        let (code, copy) = logic.transition(transition);
+        match &code.trigger {
+            TriggerCode::When(guard) => guard.holds(copy, |watch| engine.sign(watch)),
+            TriggerCode::On(..) => false,
+        }
     })
 }
 
@@ -380,9 +389,9 @@ fn keep_urgent<T>(kept: &mut Vec<T>, least: &mut i32, priority: i32, item: T) {
 }
 
 /// A formula at an instant.
-fn evaluate(engine: &dyn Engine, e: &Equations, formula: &Formula, t: f64, memory: &mut [f64]) -> f64 {
+fn evaluate(engine: &dyn Engine, e: &Equations, formula: (&Formula, u32), t: f64, memory: &mut [f64]) -> f64 {
     memory[NOW] = t;
-    for &source in e.sources(&formula.sources) {
+    for source in e.sources(&formula.0.reads, formula.1) {
         e.layout.set_integrated(memory, source, &[engine.value(source, t)], t);
     }
     let [value, ..] = e.formula(formula, engine.locations(), memory, 1);

@@ -5,7 +5,7 @@ use crate::experiment::{Experiment, ExperimentError};
 use crate::grid::Grid;
 use crate::run::Run;
 use sophy_codegen::Compiled;
-use sophy_field::{AlgebraicIndex, Jet, LocationIndex, Memory, NOW, Record, SourceIndex};
+use sophy_field::{AlgebraicIndex, Jet, LocationIndex, Memory, NOW, Record, SourceIndex, Turn};
 use sophy_ir::{Leaf, Linearity, NodeId, System};
 use sophy_record::{Column, Row, Schema, Sink, SinkError, Trajectory};
 use std::sync::Arc;
@@ -122,9 +122,9 @@ impl Recorder {
         let e = &self.compiled.equations;
         for shown in shown_of(&self.reals, &self.labels) {
             let Real::Output(index) = shown else { continue };
-            let first = e.outputs[index].first as usize;
-            let formulas = &e.formulas[first..][..system.nodes(system.outputs[index].value).len()];
-            for source in formulas.iter().flat_map(|formula| e.sources(&formula.sources)) {
+            let Turn { first, copy, .. } = e.outputs[index];
+            let formulas = &e.formulas[first as usize..][..system.nodes(system.outputs[index].value).len()];
+            for source in formulas.iter().flat_map(|formula| e.sources(&formula.reads, copy)) {
                 self.read[source.position()] = true;
             }
         }
@@ -402,7 +402,7 @@ impl Recorder {
         match real {
             Real::Source(source) => at(self.segments[source.position()], time),
             Real::Output(index) => {
-                let formula = e.selected(e.outputs[index], &self.locations);
+                let formula = e.output(index, &self.locations);
                 self.memory[NOW] = time;
                 e.value(formula, &self.locations, &mut self.memory)
             }

@@ -20,7 +20,7 @@ use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Module, ModuleError, default_libcall_names};
 use lower::{Wanted, lower};
 use rustc_hash::FxHashSet;
-use sophy_field::{Call, Equations, Formula, Kernel, Kernels, Logic, Operand, Program};
+use sophy_field::{Affine, Call, Equations, Formula, Kernel, Kernels, Logic, Program};
 use std::sync::{Arc, Mutex};
 use thunks::{Thunks, symbols};
 
@@ -145,29 +145,22 @@ impl Asked {
                 asked.call(&block.call, &[2]);
             }
             for row in equations.rows(block) {
-                let at = row.at.first;
-                let result = if row.is_jet { Operand::Jet(at) } else { Operand::Scalar(at) };
-                asked.result(&block.call, result, width);
+                asked.result(&block.call, row.at, row.is_jet, width);
             }
         }
         for call in &equations.calls {
             asked.call(call, &[1, width]);
         }
-        for watch in &equations.watches {
+        for watch in &equations.watch_codes {
             asked.formula(&watch.formula, &[1, width], width);
             asked.formula(&watch.left, &[1], width);
             asked.formula(&watch.right, &[1], width);
         }
-        let resets = logic.transitions.iter().flat_map(|transition| {
+        let resets = logic.transition_codes.iter().flat_map(|transition| {
             let resets = transition.resets.iter().map(|(_, formula)| formula);
             resets.chain(transition.emits.iter().filter_map(|emission| emission.when.as_ref()))
         });
-        // Rates over x serve Jacobians, which nobody asks for in every step.
-        let outputs = equations.outputs.iter().flat_map(|output| {
-            let locations = equations.automata[output.owner.position()].armed.len();
-            &equations.formulas[output.first as usize..][..locations]
-        });
-        for formula in outputs.chain(resets) {
+        for formula in equations.formulas.iter().chain(resets) {
             asked.formula(formula, &[1], width);
         }
         asked
@@ -175,7 +168,7 @@ impl Asked {
 
     fn formula(&mut self, formula: &Formula, orders: &[usize], width: usize) {
         self.call(&formula.call, orders);
-        self.result(&formula.call, formula.result, width);
+        self.result(&formula.call, formula.at, formula.is_jet, width);
     }
 
     fn call(&mut self, call: &Call, orders: &[usize]) {
@@ -184,11 +177,9 @@ impl Asked {
         }
     }
 
-    fn result(&mut self, call: &Call, result: Operand, width: usize) {
-        let results = &mut self.results[call.program as usize];
-        match result {
-            Operand::Jet(at) => results.extend(at..at + width as u32),
-            Operand::Scalar(at) => results.extend([at]),
-        }
+    fn result(&mut self, call: &Call, at: Affine, is_jet: bool, width: usize) {
+        // What is computed stands among the temporaries, the same for all copies.
+        let count = if is_jet { width as u32 } else { 1 };
+        self.results[call.program as usize].extend(at.first..at.first + count);
     }
 }

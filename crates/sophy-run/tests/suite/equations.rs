@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use sophy_codegen::{Compiled, Parameters, Sharing, compile_sharing};
-use sophy_field::{Enclosing, Formula, Jet, LocationIndex, NOW, SourceIndex, StateIndex};
+use sophy_field::{Enclosing, Formula, Jet, LocationIndex, NOW, SourceIndex, StateIndex, WatchIndex};
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Model, Node, NodeId, System, Unary, Value, evaluate};
 use sophy_segment::Interval;
 use sophy_testkit::Build;
@@ -247,12 +247,15 @@ impl Case {
     }
 
     /// All formulas read by guards and outputs whose reference is a node of the system.
-    fn formulas(&self) -> Vec<(&Formula, NodeId)> {
+    fn formulas(&self) -> Vec<((&Formula, u32), NodeId)> {
         let e = &self.compiled.equations;
-        let watches = e.watches.iter().zip(&self.system.watches);
+        let watches = (0..).map(WatchIndex).zip(&self.system.watches);
         watches
-            .map(|(code, watch)| (&code.formula, watch.difference))
-            .chain([(e.selected(e.outputs[0], &HERE), self.system.nodes(self.system.outputs[0].value)[0])])
+            .map(|(index, watch)| {
+                let (code, copy) = e.watch(index);
+                ((&code.formula, copy), watch.difference)
+            })
+            .chain([(e.output(0, &HERE), self.system.nodes(self.system.outputs[0].value)[0])])
             .collect()
     }
 
@@ -404,7 +407,7 @@ proptest! {
         let scale = 1.0 + d1.abs() + d2.abs();
         prop_assert!((along - d1).abs() < 1e-9 * scale, "{along} {d1}");
 
-        let formula = case.compiled.equations.selected(case.compiled.equations.outputs[0], &HERE);
+        let formula = case.compiled.equations.output(0, &HERE);
         let plain = case.compiled.equations.formula(formula, &HERE, &mut case.memory(&jets), WIDTH);
         let lifted = case.rate(0, &mut case.memory(&jets), WIDTH);
         for c in [plain, lifted] {
@@ -441,7 +444,7 @@ proptest! {
         let mut enclosed: Vec<Interval> =
             numbers[rest as usize..].iter().copied().map(Interval::point).collect();
         let now = Interval::new(TIME, TIME + width);
-        for formula in e.watches.iter().map(|watch| &watch.formula) {
+        for (formula, _) in case.formulas().into_iter().take(e.watches.len()) {
             let mut memory = Enclosing { numbers: &numbers, enclosed: &mut enclosed, rest, now };
             let enclosure = e.formula_enclosed(formula, &HERE, &mut memory);
             for &part in &inside {

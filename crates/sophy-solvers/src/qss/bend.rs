@@ -1,7 +1,7 @@
 //! Rates that bend: what their segments leave out is bounded by evaluating them again.
 
 use super::engine::Qss;
-use sophy_field::{Affine, Block, Equations, Jet};
+use sophy_field::{Block, Equations, Jet, SourceIndex};
 use sophy_segment::{cube_root, cubic_leaves};
 
 /// What a rate does that its segment leaves out.
@@ -77,8 +77,8 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// How long, s, no source of a block moves by a quantum: until then its rates are those of the present place, as
     /// far as they are known at all.
     pub(super) fn still_for(&self, e: &Equations, block: &Block, copy: u32) -> f64 {
-        let still = |source: &Affine| {
-            let record = self.record(source.of(copy) as usize);
+        let still = |source: SourceIndex| {
+            let record = self.record(source.position());
             let ([_, q1, q2], quantum) = (record.q(), record.quantum());
             match (q1 == 0.0 && q2 == 0.0, quantum.is_finite()) {
                 (true, _) => f64::INFINITY,
@@ -88,6 +88,6 @@ impl<const ORDER: usize> Qss<ORDER> {
                 (false, true) => cubic_leaves([0.0, q1, q2, 0.0], quantum),
             }
         };
-        e.reads(block).iter().map(still).fold(f64::INFINITY, f64::min)
+        e.sources(&block.reads, copy).map(still).fold(f64::INFINITY, f64::min)
     }
 }

@@ -3,7 +3,9 @@
 use super::engine::Qss;
 use super::implicit::Ahead;
 use super::record::Place;
-use sophy_field::{AutomatonIndex, Equations, Fault, Journal, LocationIndex, SourceIndex, StateIndex, Turn};
+use sophy_field::{
+    AutomatonIndex, Equations, Fault, Journal, LocationIndex, SourceIndex, StateIndex, Turn, WatchIndex,
+};
 
 impl<const ORDER: usize> Qss<ORDER> {
     /// Evaluates what a change concerns: the turns collected, and what fresh states influence. Twice, for
@@ -110,20 +112,21 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// Enters a location: arms its watches, disarms those left, and gives the states whose right-hand side is
     /// another one.
     pub(super) fn enter(&mut self, e: &Equations, automaton: usize, location: LocationIndex) {
-        let code = &e.automata[automaton];
+        let (code, copy) = e.automaton(AutomatonIndex::new(automaton));
         let (from, to) = (self.locations[automaton].position(), location.position());
-        for &watch in &code.armed[to] {
-            self.arm(watch);
+        for watch in &code.armed[to] {
+            self.arm(WatchIndex(watch.of(copy)));
         }
-        for &watch in &code.armed[from] {
-            self.disarm(e, watch);
+        for watch in &code.armed[from] {
+            self.disarm(e, WatchIndex(watch.of(copy)));
         }
         self.switchings += 1;
         self.locations[automaton] = location;
         self.note_entered(AutomatonIndex::new(automaton));
-        self.decide_again(&code.readers);
+        self.decide_again(code.readers.iter().map(|watch| WatchIndex(watch.of(copy))));
         let changed = code.row_of[from].iter().zip(&code.row_of[to]).map(|(a, b)| a != b);
-        self.fresh.extend(code.states.iter().zip(changed).filter_map(|(&s, changed)| changed.then_some(s)));
+        let changed = code.states.iter().zip(changed).filter(|(_, changed)| *changed);
+        self.fresh.extend(changed.map(|(state, _)| StateIndex(state.of(copy))));
     }
 
     pub(super) fn note_entered(&mut self, automaton: AutomatonIndex) {

@@ -18,10 +18,10 @@ impl<const ORDER: usize> Qss<ORDER> {
         if std::mem::replace(&mut record.doubted, t) == t || sign == Sign::Zero {
             return Ok(false);
         }
-        let sources = e.sources(&e.watches[watch.position()].formula.sources);
+        let (code, copy) = e.watch(watch);
         let mut kept = std::mem::take(&mut self.doubting);
         let mut stiff = false;
-        for &source in sources {
+        for source in e.sources(&code.formula.reads, copy) {
             let i = source.position();
             if i >= self.ahead.len() {
                 continue;
@@ -61,7 +61,8 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// Whether a watch on the surface cannot be decided by the rates there are, because they hide those at x.
     pub(super) fn reads_hidden_rates(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> bool {
-        e.sources(&e.watches[watch.position()].formula.sources).iter().any(|source| {
+        let (code, copy) = e.watch(watch);
+        e.sources(&code.formula.reads, copy).any(|source| {
             let i = source.position();
             i < self.ahead.len() && is_hidden(self.linear(e, i, t).a, t - self.record(i).tq())
         })
@@ -75,7 +76,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         journal: &mut Journal,
     ) -> Result<(), Fault> {
-        for &source in e.sources(&e.watches[watch.position()].formula.sources) {
+        let (code, copy) = e.watch(watch);
+        for source in e.sources(&code.formula.reads, copy) {
             if source.position() < self.ahead.len() {
                 self.step_from_x(e, source.position(), t, journal).map_err(|failed| self.why(failed))?;
             }

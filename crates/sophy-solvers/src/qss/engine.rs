@@ -166,9 +166,10 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         }
         self.record_mut(e.layout.time().position()).set_line(0.0, 1.0, 0.0);
         self.locations.copy_from_slice(start.locations);
-        for (code, location) in e.automata.iter().zip(start.locations) {
-            for &watch in &code.armed[location.position()] {
-                self.arm(watch);
+        for (automaton, location) in start.locations.iter().enumerate() {
+            let (code, copy) = e.automaton(AutomatonIndex::new(automaton));
+            for watch in &code.armed[location.position()] {
+                self.arm(WatchIndex(watch.of(copy)));
             }
         }
         self.guess_truths(e, t);
@@ -242,8 +243,8 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         }
         for &(automaton, location) in &changes.locations {
             self.enter(e, automaton.position(), location);
-            let range = &e.on_location[automaton.position()];
-            self.turns.extend_from_slice(e.turns(range));
+            let (code, copy) = e.automaton(automaton);
+            self.turns.extend(e.turns(&code.on_change, copy));
             if journal.wanted {
                 journal.push(sophy_field::Record::Location { time: at, automaton, location });
             }
@@ -291,7 +292,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         for state in 0..e.layout.states as usize {
             sources.clear();
             for (block, copy) in e.own_blocks(state, &self.locations) {
-                sources.extend(e.reads(block).iter().map(|source| source.of(copy) as usize));
+                sources.extend(e.sources(&block.reads, copy).map(SourceIndex::position));
             }
             sources.sort_unstable();
             sources.dedup();

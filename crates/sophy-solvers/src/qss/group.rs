@@ -120,8 +120,8 @@ impl<const ORDER: usize> Qss<ORDER> {
         let mut m = 0;
         while m < count {
             for (block, copy) in e.own_blocks(found[m], &self.locations) {
-                for source in e.reads(block) {
-                    let source = source.of(copy) as usize;
+                for source in e.sources(&block.reads, copy) {
+                    let source = source.position();
                     let known = found[..count].iter().position(|&f| f == source);
                     let restless = self.ahead.get(source).is_some_and(|s| s.whereabouts.becomes_restless());
                     if let Some(n) = known.or((restless && count < MOST).then_some(count)) {

@@ -232,8 +232,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             let turn = evaluation.of(copy);
             let (block, copy) = (e.block(turn, &self.locations), turn.copy);
             // The others stand still.
-            for source in e.reads(block) {
-                let source = source.of(copy) as usize;
+            for source in e.sources(&block.reads, copy) {
+                let source = source.position();
                 let record = self.record(source);
                 let (q, value) = ((record.q(), record.tq()), record.q_at(t));
                 self.kept.push(q);
@@ -243,8 +243,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             // As many coefficients as its rates have anyway, so that one native function serves both.
             self.run_block(e, (block, copy), t, if ORDER == 2 && block.bends { 3 } else { 2 });
             let mut kept = std::mem::take(&mut self.kept);
-            for (source, (q, start)) in e.reads(block).iter().zip(kept.drain(..)) {
-                self.record_mut(source.of(copy) as usize).set_q(q, start);
+            for (source, (q, start)) in e.sources(&block.reads, copy).zip(kept.drain(..)) {
+                self.record_mut(source.position()).set_q(q, start);
             }
             self.kept = kept;
             for row in e.rows(block) {

@@ -14,7 +14,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         located: bool,
         t: f64,
     ) -> Result<bool, Fault> {
-        let Some((stair, step)) = e.watches[watch.position()].stair else { return Ok(false) };
+        let (watched, copy) = e.watch(watch);
+        let Some((stair, step)) = watched.stair else { return Ok(false) };
+        let stair = stair.of(copy);
         let code = &e.stairs[stair as usize];
         let inside = if step < 0.0 { sign != Sign::Negative } else { sign == Sign::Negative };
         if inside {
@@ -29,7 +31,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let Some(edge) = code.edge(&self.memory, if step < 0.0 { now } else { now + 1.0 }) else {
             return Ok(false);
         };
-        let argument = self.value_of(e, &e.watches[watch.position()].left, t, 1)[0];
+        let argument = self.value_of(e, (&watched.left, copy), t, 1)[0];
         // On the edge, located or to rounding: the next one. Thrown further by a jump: where it is.
         let on_edge = located || (argument - edge).abs() <= 4.0 * (edge.abs().next_up() - edge.abs());
         let next = if on_edge { now + step } else { code.step(&self.memory, argument) };
@@ -55,7 +57,8 @@ impl<const ORDER: usize> Qss<ORDER> {
     ///
     /// The range includes both ends, so that on the last knot the sign of the lower watch tells staying from leaving.
     pub(super) fn beyond(&self, e: &Equations, watch: WatchIndex) -> Option<bool> {
-        let (stair, step) = e.watches[watch.position()].stair?;
+        let (watched, copy) = e.watch(watch);
+        let (stair, step) = watched.stair.map(|(stair, step)| (stair.of(copy), step))?;
         let code = &e.stairs[stair as usize];
         let now = self.memory[(e.layout.stairs + stair) as usize];
         let edge = if step < 0.0 { now } else { now + 1.0 };
@@ -72,7 +75,8 @@ impl<const ORDER: usize> Qss<ORDER> {
             return self.predict(e, watch, t);
         }
         let time = t.next_down();
-        let value = self.value_of(e, &e.watches[watch.position()].left, time, 1)[0];
+        let (code, copy) = e.watch(watch);
+        let value = self.value_of(e, (&code.left, copy), time, 1)[0];
         Err(Fault::OutsideTable { watch, time, value })
     }
 }

@@ -123,12 +123,12 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// A source was set from outside: the watches that read it are decided anew.
     pub(super) fn touch(&mut self, e: &Equations, source: SourceIndex) {
-        self.decide_again(e.watches_of_source.row(source.position()));
+        self.decide_again(e.watches_of_source.row(source.position()).iter().copied());
     }
 
     /// What watches read has jumped.
-    pub(super) fn decide_again(&mut self, watches: &[WatchIndex]) {
-        for &watch in watches {
+    pub(super) fn decide_again(&mut self, watches: impl Iterator<Item = WatchIndex>) {
+        for watch in watches {
             let record = &mut self.watches[watch.position()];
             if record.armed > 0 && record.fresh == Fresh::No {
                 record.fresh = Fresh::Reset;
@@ -250,23 +250,26 @@ impl<const ORDER: usize> Qss<ORDER> {
                 continue;
             }
             let mut changed = false;
-            if let Some((stair, _)) = e.watches[index].stair {
-                let argument = self.value_of(e, &e.watches[index].left, t, 1)[0];
+            let (code, copy) = e.watch(watch);
+            if let Some((stair, _)) = code.stair {
+                let stair = stair.of(copy);
+                let argument = self.value_of(e, (&code.left, copy), t, 1)[0];
                 let step = e.stairs[stair as usize].step(&self.memory, argument);
                 changed |= self.set_scalar(e, e.layout.stairs + stair, step);
             }
-            let value = self.value_of(e, &e.watches[index].formula, t, 1)[0];
+            let value = self.value_of(e, (&code.formula, copy), t, 1)[0];
             changed |= self.publish(e, watch, Sign::of(value - record.bias));
             if changed {
-                self.turns.extend_from_slice(e.turns(&e.on_watch[index]));
+                self.turns.extend(e.turns(&code.on_change, copy));
                 self.mark_dependents(e, watch);
             }
         }
     }
 
     fn mark_dependents(&mut self, e: &Equations, watch: WatchIndex) {
-        for &dependent in &e.watches[watch.position()].dependents {
-            self.mark(dependent);
+        let (code, copy) = e.watch(watch);
+        for dependent in &code.dependents {
+            self.mark(WatchIndex(dependent.of(copy)));
         }
     }
 
@@ -278,9 +281,9 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         fresh: Fresh,
     ) -> Result<Jet, Fault> {
-        let code = &e.watches[watch.position()];
-        let left = self.value_of(e, &code.left, t, 1)[0];
-        let right = self.value_of(e, &code.right, t, 1)[0];
+        let (code, copy) = e.watch(watch);
+        let left = self.value_of(e, (&code.left, copy), t, 1)[0];
+        let right = self.value_of(e, (&code.right, copy), t, 1)[0];
         let mut c = self.raw_difference(e, watch, t)?;
         let record = &mut self.watches[watch.position()];
         let stays = fresh == Fresh::Reset
@@ -304,7 +307,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         c: &Jet,
     ) -> Result<Sign, Fault> {
-        if *c != [0.0; 4] || e.watches[watch.position()].affine {
+        if *c != [0.0; 4] || e.watch(watch).0.affine {
             return Ok(Sign::after(c));
         }
         let start = Start { sign: Sign::Zero, on_surface: true };
@@ -320,9 +323,9 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// Whether the two sides of a watch are equal to rounding at `t`: what is lost in rounding is small beside
     /// them. Otherwise large numbers cancel in one of them, and the sign means nothing.
     fn are_equal(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> bool {
-        let code = &e.watches[watch.position()];
-        let left = self.value_of(e, &code.left, t, 1)[0];
-        let right = self.value_of(e, &code.right, t, 1)[0];
+        let (code, copy) = e.watch(watch);
+        let left = self.value_of(e, (&code.left, copy), t, 1)[0];
+        let right = self.value_of(e, (&code.right, copy), t, 1)[0];
         let noise = self.enclose(e, watch, Interval::point(t))[0].width();
         noise <= EQUAL * f64::EPSILON * left.abs().max(right.abs())
     }
@@ -338,6 +341,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         journal: &mut Journal,
     ) -> Result<(), Fault> {
+        let (code, copy) = e.watch(watch);
         let record = &mut self.watches[watch.position()];
         if record.sign != sign {
             record.repeat_at(t);
@@ -346,17 +350,17 @@ impl<const ORDER: usize> Qss<ORDER> {
                 return Err(Fault::Chattering { watch, time: t });
             }
             self.statistics.crossings += 1;
-            if e.watches[watch.position()].guard {
+            if code.guard {
                 self.changed.push(watch);
             }
-            if journal.wanted && !e.on_watch[watch.position()].is_empty() {
+            if journal.wanted && !code.on_change.is_empty() {
                 journal.push(Record::Switch { time: t, watch, sign });
             }
         }
         let changed = self.publish(e, watch, sign);
         let stepped = self.step_stair(e, watch, sign, located, t)?;
         if changed || stepped {
-            for &turn in e.turns(&e.on_watch[watch.position()]) {
+            for turn in e.turns(&code.on_change, copy) {
                 self.evaluate_turn(e, turn, t, journal).map_err(|failed| self.why(failed))?;
             }
             self.mark_dependents(e, watch);
@@ -367,9 +371,10 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// Writes the truths that a sign means; whether one changed.
     fn publish(&mut self, e: &Equations, watch: WatchIndex, sign: Sign) -> bool {
         let mut changed = false;
-        for &(truth, signs) in &e.watches[watch.position()].truths {
+        let (code, copy) = e.watch(watch);
+        for &(truth, signs) in &code.truths {
             let holds = if signs & sign_bit(sign) != 0 { 1.0 } else { 0.0 };
-            changed |= self.set_scalar(e, e.layout.truths + truth, holds);
+            changed |= self.set_scalar(e, e.layout.truths + truth.of(copy), holds);
         }
         changed
     }
@@ -398,10 +403,10 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         let c = self.difference(e, watch, t)?;
         let sign = self.watches[watch.position()].sign;
-        let code = &e.watches[watch.position()];
+        let (code, copy) = e.watch(watch);
         let (time, due) = if code.clock && sign == Sign::Negative && c[0] < 0.0 {
             // Not `t` plus the rest, which would be rounded.
-            (self.value_of(e, &code.right, t, 1)[0].max(t), Due::Root)
+            (self.value_of(e, (&code.right, copy), t, 1)[0].max(t), Due::Root)
         } else if code.affine {
             let [c0, c1, c2, _] = c;
             let crossing =
@@ -428,10 +433,10 @@ impl<const ORDER: usize> Qss<ORDER> {
         t: f64,
         on_surface: bool,
     ) -> Result<(f64, Due), Fault> {
-        let sources = e.sources(&e.watches[watch.position()].formula.sources);
+        let (code, copy) = e.watch(watch);
         // Segments change with the next step of a source: no need to look much further.
-        let next = sources
-            .iter()
+        let next = e
+            .sources(&code.formula.reads, copy)
             .filter(|source| source.0 < e.layout.states)
             .map(|source| self.agenda.time(source.0))
             .fold(f64::INFINITY, f64::min);
@@ -461,10 +466,10 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// Enclosures of the Taylor coefficients of the watched difference over `times`, the bias taken off.
     fn enclose(&mut self, e: &Equations, watch: WatchIndex, times: Interval) -> [Interval; 3] {
         self.statistics.enclosures += 1;
-        let formula = &e.watches[watch.position()].formula;
+        let (code, copy) = e.watch(watch);
         let rest = e.layout.rest;
         let mut memory = Enclosing { numbers: &self.memory, enclosed: &mut self.enclosed, rest, now: times };
-        let mut jet = e.formula_enclosed(formula, &self.locations, &mut memory);
+        let mut jet = e.formula_enclosed((&code.formula, copy), &self.locations, &mut memory);
         jet[0] = jet[0] - Interval::point(self.watches[watch.position()].bias);
         jet
     }
@@ -482,14 +487,14 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 
     pub(super) fn raw_difference(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<Jet, Fault> {
-        let code = &e.watches[watch.position()];
+        let (code, copy) = e.watch(watch);
         let c = match code.level {
             Some((source, number)) => {
-                let mut c = self.record(source.position()).x_from(t);
-                c[0] = number.map_or(c[0], |at| c[0] - self.memory[at as usize]);
+                let mut c = self.record(source.of(copy) as usize).x_from(t);
+                c[0] = number.map_or(c[0], |at| c[0] - self.memory[at.of(copy) as usize]);
                 c
             }
-            None => self.value_of(e, &code.formula, t, ORDER + 1),
+            None => self.value_of(e, (&code.formula, copy), t, ORDER + 1),
         };
         let [value, rest @ ..] = c;
         if !value.is_finite() {
@@ -501,7 +506,7 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// A formula over x at `t`.
     #[inline]
-    pub(super) fn value_of(&mut self, e: &Equations, formula: &Formula, t: f64, orders: usize) -> Jet {
+    pub(super) fn value_of(&mut self, e: &Equations, formula: (&Formula, u32), t: f64, orders: usize) -> Jet {
         self.memory[NOW] = t;
         e.formula(formula, &self.locations, &mut self.memory, orders)
     }
