@@ -47,7 +47,7 @@ impl Case {
             ..Experiment::default()
         };
         let mut run = Run::new(Arc::clone(&self.system), &experiment).expect("it starts");
-        run.journal.wanted = false;
+        run.journal.stop();
         assert_eq!(run.is_native(), backend == Backend::Native);
         run
     }

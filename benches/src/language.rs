@@ -95,7 +95,8 @@ fn make_ready(model: &Model, stages: &mut Vec<(&'static str, f64)>) -> (usize, u
         ..Experiment::default()
     };
     // Compiles a second time.
-    let run = timed("start", stages, || Run::new(Arc::clone(&system), &experiment)).expect("it starts");
+    let mut run = timed("start", stages, || Run::new(Arc::clone(&system), &experiment)).expect("it starts");
+    run.journal.stop();
     let compile = stages.iter().find(|(stage, _)| *stage == "compile").map_or(0.0, |(_, ms)| *ms);
     if let Some((_, ms)) = stages.last_mut() {
         *ms = (*ms - compile).max(0.0);

@@ -105,7 +105,7 @@ struct Taken {
 /// What it took, and the rows.
 fn record(mut run: Run, experiment: &Experiment, into: Into) -> (Taken, u64) {
     if into == Into::Nothing {
-        run.journal.wanted = false;
+        run.journal.stop();
         let begin = ProcessTime::now();
         let (pause, time) = timed(&mut || run.advance(STOP, u64::MAX).expect("it goes on"));
         let all_ms = 1e3 * begin.elapsed().as_secs_f64();

@@ -119,7 +119,7 @@ fn scattered(sections: usize) -> Vec<(String, f64)> {
 fn measure(system: &'static str, model: &Model, experiment: &Experiment, budget: u64) -> Scaled {
     let begin = |lowered| {
         let mut run = Run::new(lowered, experiment).expect("it starts");
-        run.journal.wanted = false;
+        run.journal.stop();
         run
     };
     let mut run = memory::peak_of(|| begin(Arc::new(lower(model).expect("it is sound")))).0;

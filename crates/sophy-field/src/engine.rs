@@ -1,5 +1,6 @@
 use crate::{
-    AutomatonIndex, Equations, InputIndex, Jet, Journal, LocationIndex, SourceIndex, StateIndex, WatchIndex,
+    AutomatonIndex, Equations, Formula, InputIndex, Jet, Journal, LocationIndex, SourceIndex, StateIndex,
+    WatchIndex,
 };
 use sophy_segment::Sign;
 use std::fmt::Debug;
@@ -51,6 +52,9 @@ pub trait Engine: Debug + Send {
 
     /// Quantised value q of a state at `time` (s); engines without quantisation give x.
     fn quantised(&self, state: StateIndex, time: f64) -> f64;
+
+    /// The value of a formula over x at `time` (s), of a copy.
+    fn formula(&mut self, equations: &Equations, formula: (&Formula, u32), time: f64) -> f64;
 
     /// The decided sign of a watch; meaningful while the watch is armed.
     fn sign(&self, watch: WatchIndex) -> Sign;

@@ -104,6 +104,11 @@ impl Journal {
         }
     }
 
+    /// Nothing is wanted from now on; what was written is forgotten.
+    pub fn stop(&mut self) {
+        *self = Journal::default();
+    }
+
     /// Gives back what it took to grow.
     pub fn shrink_to_fit(&mut self) {
         self.entries.shrink_to_fit();

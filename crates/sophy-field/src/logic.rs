@@ -56,13 +56,6 @@ pub struct TransitionCode {
     pub silent: bool,
 }
 
-impl TransitionCode {
-    /// Whether anything is evaluated when it is taken.
-    pub fn evaluates(&self) -> bool {
-        !self.resets.is_empty() || self.emits.iter().any(|emission| emission.when.is_some())
-    }
-}
-
 /// What is emitted.
 #[derive(Clone, Debug)]
 pub struct EmissionCode {

@@ -3,8 +3,8 @@ use crate::livelock::Livelock;
 use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
-    AutomatonIndex, Changes, Engine, Equations, EventIndex, Formula, Guard, Journal, LocationIndex, Logic,
-    Memory, NOW, Record, StateIndex, TransitionCode, TransitionIndex, TriggerCode, WatchIndex,
+    AutomatonIndex, Changes, Engine, Equations, EventIndex, Guard, Journal, LocationIndex, Logic, Record,
+    StateIndex, TransitionCode, TransitionIndex, TriggerCode, WatchIndex,
 };
 use std::collections::VecDeque;
 
@@ -51,8 +51,6 @@ pub struct Control {
     stale: Worklist,
     /// Per automaton; of none where there are no transitions.
     zeno: Vec<Zeno>,
-    /// Memory for resets and for conditions of events, if there are any.
-    memory: Memory,
     /// Watches that changed, transitions of a micro-step, and what they change; kept for their memory.
     changed: Vec<WatchIndex>,
     chosen: Vec<TransitionIndex>,
@@ -66,16 +64,14 @@ pub struct Control {
 
 impl Control {
     /// The control of a system at its start: every guard will be looked at.
-    pub fn new(equations: &Equations, logic: &Logic) -> Self {
+    pub fn new(logic: &Logic) -> Self {
         let automata = logic.first_location.len();
         let of_all = |needed: bool| if needed { automata } else { 0 };
-        let evaluates = logic.transition_codes.iter().any(TransitionCode::evaluates);
         Control {
             queues: vec![VecDeque::new(); of_all(!logic.receivers.is_empty())],
             waiting: Worklist::empty(automata),
             stale: Worklist::full(automata),
             zeno: vec![Zeno::default(); of_all(!logic.transitions.is_empty())],
-            memory: if evaluates { equations.memory() } else { Memory::default() },
             changed: Vec::new(),
             chosen: Vec::new(),
             emitted: Vec::new(),
@@ -312,16 +308,16 @@ impl Control {
     }
 
     /// The changes and events of one micro-step, all right-hand sides read before it.
-    fn collect_changes(&mut self, engine: &dyn Engine, e: &Equations, logic: &Logic, t: f64) {
+    fn collect_changes(&mut self, engine: &mut dyn Engine, e: &Equations, logic: &Logic, t: f64) {
         for transition in &self.chosen {
             let (code, copy) = logic.transition(*transition);
             for (state, formula) in &code.resets {
-                let value = evaluate(engine, e, (formula, copy), t, &mut self.memory);
+                let value = engine.formula(e, (formula, copy), t);
                 self.changes.states.push((StateIndex(state.of(copy)), value));
             }
             self.changes.locations.push((AutomatonIndex(code.automaton.of(copy)), code.destination));
             for emission in &code.emits {
-                let mut value = |formula| evaluate(engine, e, (formula, copy), t, &mut self.memory);
+                let mut value = |formula| engine.formula(e, (formula, copy), t);
                 if emission.when.as_ref().is_none_or(|when| value(when) != 0.0) {
                     self.emitted.extend(emission.receivers.iter().map(|event| EventIndex(event.of(copy))));
                 }
@@ -386,14 +382,4 @@ fn keep_urgent<T>(kept: &mut Vec<T>, least: &mut i32, priority: i32, item: T) {
     if priority == *least {
         kept.push(item);
     }
-}
-
-/// A formula at an instant.
-fn evaluate(engine: &dyn Engine, e: &Equations, formula: (&Formula, u32), t: f64, memory: &mut [f64]) -> f64 {
-    memory[NOW] = t;
-    for source in e.sources(&formula.0.reads, formula.1) {
-        e.layout.set_integrated(memory, source, &[engine.value(source, t)], t);
-    }
-    let [value, ..] = e.formula(formula, engine.locations(), memory, 1);
-    value
 }

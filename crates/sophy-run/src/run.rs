@@ -100,7 +100,7 @@ impl Run {
             2 => Box::new(Qss2::new(equations, settings)),
             _ => Box::new(Qss3::new(equations, settings)),
         };
-        let control = Control::new(equations, &compiled.logic);
+        let control = Control::new(&compiled.logic);
         let mut run = Run {
             system,
             evaluation: Evaluation::new(experiment.backend, &compiled),

@@ -25,7 +25,7 @@ fn no_event_allocates() {
             for backend in [Backend::Interpreter, Backend::Native] {
                 let experiment = Experiment { backend, ..by(method, to(stop, quantum)) };
                 let mut run = Run::new(Arc::clone(&system), &experiment).unwrap();
-                run.journal.wanted = false;
+                run.journal.stop();
                 let mut advance = |until: f64| {
                     // Whoever records takes them at each pause.
                     run.taken.clear();

@@ -29,7 +29,7 @@ fn play(system: &System, sharing: Sharing, until: f64) -> Trace {
     let Compiled { equations, logic, .. } = compiled(system, sharing);
     let settings = Settings::for_span(vec![Quantum::absolute(1e-2); system.states.len()], until);
     let mut engine: Box<dyn Engine> = Box::new(Qss2::new(&equations, settings));
-    let mut control = Control::new(&equations, &logic);
+    let mut control = Control::new(&logic);
     let (mut journal, mut taken) = (Journal::default(), Vec::new());
     let initial = |s: &sophy_ir::State| {
         evaluate(&system.graph, s.initial.expect("given"), &mut |_| Value::Real(f64::NAN)).real()

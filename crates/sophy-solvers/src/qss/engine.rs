@@ -6,8 +6,8 @@ use super::record::{Place, Record, RecordMut};
 use super::settings::Settings;
 use super::watches::WatchRecord;
 use sophy_field::{
-    Agenda, AutomatonIndex, Changes, Engine, Equations, Fault, Jet, Journal, LocationIndex, Memory, NOW,
-    SourceIndex, Start, StateIndex, Statistics, Stop, Turn, WatchIndex,
+    Agenda, AutomatonIndex, Changes, Engine, Equations, Fault, Formula, Jet, Journal, LocationIndex, Memory,
+    NOW, SourceIndex, Start, StateIndex, Statistics, Stop, Turn, WatchIndex,
 };
 use sophy_segment::{Interval, Sign};
 use std::cmp::Reverse;
@@ -264,6 +264,11 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
 
     fn quantised(&self, state: StateIndex, time: f64) -> f64 {
         self.record(state.position()).q_at(time)
+    }
+
+    fn formula(&mut self, e: &Equations, formula: (&Formula, u32), time: f64) -> f64 {
+        self.memory[NOW] = time;
+        e.value(formula, &self.locations, &mut self.memory)
     }
 
     fn sign(&self, watch: WatchIndex) -> Sign {

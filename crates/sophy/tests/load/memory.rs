@@ -53,7 +53,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Bytes per state of a ring of cells, held and at the peak.
+/// Bytes per state of a ring of cells, held when nothing is to be recorded, and at the peak.
 fn bytes(method: Method) -> [isize; 2] {
     const CELLS: usize = 20_000;
     let world = MemoryWorld::default().with("ring.hsml", ring_text(CELLS));
@@ -63,7 +63,8 @@ fn bytes(method: Method) -> [isize; 2] {
     MOST.set(before);
     let model = load(&world, Path::new("ring.hsml")).model.unwrap();
     let system = Arc::new(sophy_passes::lower(&model).unwrap());
-    let run = sophy_run::Run::new(system, &experiment).unwrap();
+    let mut run = sophy_run::Run::new(system, &experiment).unwrap();
+    run.journal.stop();
     let states = run.system().states.len() as isize;
     assert_eq!(states, 3 * CELLS as isize);
     [LIVE.get(), MOST.get()].map(|bytes| (bytes - before) / states)
