@@ -316,7 +316,7 @@ impl Equations {
     }
 
     /// Runs a program on its operands, those of a copy.
-    #[inline]
+    #[inline(always)]
     #[allow(unsafe_code)]
     pub fn execute(&self, call: &Call, copy: u32, memory: &mut [f64], orders: usize) {
         let kernel = self.kernels.get().and_then(|kernels| kernels.get(call.program, orders));
@@ -328,6 +328,11 @@ impl Equations {
             unsafe { kernel(self.operands(call).as_ptr(), copy, memory.as_mut_ptr()) };
             return;
         }
+        self.interpret(call, copy, memory, orders);
+    }
+
+    #[inline(never)]
+    fn interpret(&self, call: &Call, copy: u32, memory: &mut [f64], orders: usize) {
         (self.run)(&self.programs[call.program as usize], self.operands(call), copy, memory, orders);
     }
 

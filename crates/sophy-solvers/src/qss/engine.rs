@@ -1,7 +1,7 @@
 use super::bend::Bend;
 use super::group::MOST;
 use super::implicit::Ahead;
-use super::own::{Own, Rule};
+use super::own::{Own, Quanta};
 use super::record::{Place, Record, RecordMut};
 use super::settings::Settings;
 use super::watches::WatchRecord;
@@ -29,8 +29,7 @@ pub struct Qss<const ORDER: usize> {
     pub(super) settings: Settings,
     /// Per state.
     pub(super) own: Vec<Own>,
-    /// Of quanta.
-    pub(super) rules: Vec<Rule>,
+    pub(super) quanta: Quanta,
     /// Of the states that may bend.
     pub(super) bends: Vec<Bend>,
     /// Per state, if quantisation is implicit.
@@ -86,12 +85,12 @@ impl<const ORDER: usize> Qss<ORDER> {
         let layout = equations.layout;
         let (states, watches) = (layout.states as usize, equations.watches.len());
         let rest = &equations.image;
-        let (mut own, rules) = Own::of(std::mem::take(&mut settings.quanta));
+        let (mut own, quanta) = Own::of(&std::mem::take(&mut settings.quanta));
         Qss {
             ahead: vec![Ahead::NEW; if settings.implicit { states } else { 0 }],
             bends: Own::find_bends(&mut own, equations),
             own,
-            rules,
+            quanta,
             settings,
             refreshed: usize::MAX,
             still: 0.0,
@@ -204,16 +203,17 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
             }
             left = left.saturating_sub(1);
             now = t;
-            let enclosures = self.statistics.enclosures;
             if slot < states {
                 self.state_due(e, slot as usize, t, journal).map_err(|failed| self.why(failed))?;
-            } else {
-                let watch = WatchIndex(slot - states);
-                self.watch_due(e, watch, t, journal)?;
+                if self.dirty.is_empty() {
+                    continue;
+                }
             }
-            if !self.dirty.is_empty() {
-                self.predict_dirty(e, t)?;
+            let enclosures = self.statistics.enclosures;
+            if slot >= states {
+                self.watch_due(e, WatchIndex(slot - states), t, journal)?;
             }
+            self.predict_dirty(e, t)?;
             left = left.saturating_sub((self.statistics.enclosures - enclosures) / ENCLOSURES_PER_STEP);
             crossed |= !self.changed.is_empty();
         }

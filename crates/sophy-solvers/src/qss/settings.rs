@@ -36,16 +36,6 @@ impl Quantum {
         let relative = self.relative * x.abs();
         if relative > self.absolute { relative } else { self.absolute }
     }
-
-    /// ΔQ at x, the next value of q.
-    #[inline]
-    pub(super) fn next(&mut self, x: f64) -> f64 {
-        let quantum = self.at(x);
-        if self.largest {
-            self.absolute = quantum;
-        }
-        quantum
-    }
 }
 
 /// How a quantised engine works.
@@ -71,24 +61,5 @@ impl Settings {
     pub fn for_span(quanta: Vec<Quantum>, span: f64) -> Self {
         let span = if span > 0.0 { span } else { 1.0 };
         Settings { quanta, implicit: false, trust: span / 100.0, window: span / 16.0, search_budget: 20_000 }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Quantum;
-
-    #[test]
-    fn a_quantum_of_a_tolerance_never_shrinks() {
-        let mut quantum = Quantum::from_tolerance(1e-2);
-        let found = [0.0, 2.0, -1.0, 0.0, -4.0, 3.0].map(|x| quantum.next(x));
-        let expected = [1e-12, 2e-3, 2e-3, 2e-3, 4e-3, 4e-3];
-        assert!(found.iter().zip(expected).all(|(found, expected)| (found / expected - 1.0).abs() < 1e-12));
-    }
-
-    #[test]
-    fn another_relative_quantum_follows_the_value() {
-        let mut quantum = Quantum { absolute: 1e-3, relative: 0.1, largest: false };
-        assert_eq!([0.0, 2.0, 1.0, -1e-3].map(|x| quantum.next(x)), [1e-3, 0.2, 0.1, 1e-3]);
     }
 }

@@ -100,11 +100,11 @@ impl<const ORDER: usize> Qss<ORDER> {
     #[inline]
     pub(super) fn take_quantised(&mut self, i: usize, t: f64, q: [f64; 3], quantum: f64) {
         // Ahead, it begins at the edge of the band and moves inward, but for rounding.
-        let slack = 1e-9 * quantum + 4.0 * f64::EPSILON * q[0].abs();
-        let implicit = self.settings.implicit;
+        let slack =
+            if self.settings.implicit { 1e-9 * quantum + 4.0 * f64::EPSILON * q[0].abs() } else { 0.0 };
         let mut record = self.record_mut(i);
         record.set_q(q, t);
-        record.set_quantum(if implicit { quantum + slack } else { quantum });
+        record.set_quantum(quantum + slack);
     }
 
     #[inline]
