@@ -126,7 +126,7 @@ impl Selects {
 /// What [`Selects::write`] wrote.
 pub(crate) fn read_automaton(reading: &mut Reading<'_>) -> AutomatonCode {
     AutomatonCode {
-        on_change: 0..0,
+        on_change: Box::default(),
         states: reading.numbers().collect(),
         readers: reading.numbers().collect(),
         armed: reading.several(|reading| reading.numbers().collect()).into(),

@@ -142,14 +142,13 @@ impl<'a> Tables<'a> {
         });
         equations.blocks = blocks.read(&repeats, |reading| {
             let rank = reading.number();
-            reading.several(|reading| read_block(reading, rank, &mut equations))
+            reading.several(|reading| read_block(reading, rank))
         });
 
         let mut repeats = Repeats::default();
         let write = |&request: &RequestIndex, draft: &mut Draft| scribe.call(request, draft);
         let mut calls = Groups::add(call_starts, &gathered.calls, &mut repeats, write, |_, _| {});
-        equations.calls =
-            calls.read(&repeats, |reading| reading.several(|reading| read_call(reading, &mut equations)));
+        equations.calls = calls.read(&repeats, |reading| reading.several(read_call));
 
         Tables { system, gathered, scribe, blocks, calls, equations }
     }
@@ -169,7 +168,7 @@ impl<'a> Tables<'a> {
         let e = &mut self.equations;
         e.influences = repeats.read(|reading| {
             let _declaration: [u32; 2] = reading.forms();
-            Influence { on_step: read_turns(reading, e), own: read_turns(reading, e) }
+            Influence { on_step: read_turns(reading), own: read_turns(reading) }
         });
     }
 
@@ -179,7 +178,7 @@ impl<'a> Tables<'a> {
         let starts = outputs.iter().map(|output| output.first).collect();
         let write = |wanted: &Wanted, draft: &mut Draft| scribe.formula(wanted, gathered, calls, draft);
         let mut formulas = Groups::add(starts, &gathered.formulas, &mut repeats, write, |_, _| {});
-        e.formulas = formulas.read(&repeats, |reading| reading.several(|reading| read_formula(reading, e)));
+        e.formulas = formulas.read(&repeats, |reading| reading.several(read_formula));
         e.outputs = outputs.iter().map(|&output| formulas.turn(output)).collect();
     }
 
@@ -198,9 +197,9 @@ impl<'a> Tables<'a> {
         });
         e.watches = sites.collect();
         e.watch_codes = repeats.read(|reading| {
-            let [formula, left, right] = [0, 1, 2].map(|_| read_formula(reading, e));
+            let [formula, left, right] = [0, 1, 2].map(|_| read_formula(reading));
             let code = WatchCode { formula, left, right, ..read_watch(reading) };
-            WatchCode { on_change: read_turns(reading, e), ..code }
+            WatchCode { on_change: read_turns(reading), ..code }
         });
     }
 
@@ -215,21 +214,21 @@ impl<'a> Tables<'a> {
         });
         e.automata = sites.collect();
         e.automaton_codes = repeats.read(|reading| {
-            let on_change = read_turns(reading, e);
+            let on_change = read_turns(reading);
             AutomatonCode { on_change, ..read_automaton(reading) }
         });
     }
 
     /// Transitions.
     pub(crate) fn transitions(&mut self, transitions: &[Leads]) -> (Vec<TransitionCode>, Vec<Site>) {
-        let (Tables { gathered, scribe, calls, equations: e, .. }, mut repeats) = (self, Repeats::default());
+        let (Tables { gathered, scribe, calls, .. }, mut repeats) = (self, Repeats::default());
         let sites = transitions.iter().map(|transition| {
             repeats.add(|draft| {
                 transition.write(draft, |wanted, draft| scribe.formula(wanted, gathered, calls, draft));
             })
         });
         let sites = sites.collect();
-        (repeats.read(|reading| read_transition(reading, |reading| read_formula(reading, e))), sites)
+        (repeats.read(|reading| read_transition(reading, read_formula)), sites)
     }
 
     /// All tables, and the programs they run.
@@ -238,13 +237,12 @@ impl<'a> Tables<'a> {
     }
 }
 
-fn read_call(reading: &mut Reading<'_>, e: &mut Equations) -> Call {
-    Call { program: reading.form(), operands: more(&mut e.operands, reading.numbers()) }
+fn read_call(reading: &mut Reading<'_>) -> Call {
+    Call { program: reading.form(), operands: reading.numbers().collect() }
 }
 
-fn read_block(reading: &mut Reading<'_>, rank: Affine, e: &mut Equations) -> Block {
-    let call = read_call(reading, e);
-    let reads = more(&mut e.reads, reading.numbers());
+fn read_block(reading: &mut Reading<'_>, rank: Affine) -> Block {
+    let (call, reads) = (read_call(reading), reading.numbers().collect());
     let rows = reading.several(|reading| {
         let _declaration: [u32; 2] = reading.forms();
         let state = reading.number();
@@ -253,24 +251,23 @@ fn read_block(reading: &mut Reading<'_>, rank: Affine, e: &mut Equations) -> Blo
     });
     // An algebraic variable, which has no rows, may bend what reads it.
     let bends = rows.is_empty() || rows.iter().any(|row| row.bends);
-    Block { call, reads, rows: more(&mut e.rows, rows.into_iter()), bends, rank }
+    Block { call, reads, rows: rows.into(), bends, rank }
 }
 
-fn read_formula(reading: &mut Reading<'_>, e: &mut Equations) -> Formula {
-    let call = read_call(reading, e);
+fn read_formula(reading: &mut Reading<'_>) -> Formula {
+    let call = read_call(reading);
     let (is_jet, at) = read_place(reading);
-    let reads = more(&mut e.reads, reading.numbers());
-    Formula { call, reads, before: read_turns(reading, e), at, is_jet }
+    Formula { call, reads: reading.numbers().collect(), before: read_turns(reading), at, is_jet }
 }
 
 /// What [`Groups::write`] wrote.
-fn read_turns(reading: &mut Reading<'_>, e: &mut Equations) -> Range<u32> {
+fn read_turns(reading: &mut Reading<'_>) -> Box<[Evaluation]> {
     let turns = reading.several(|reading| Evaluation {
         first: reading.form(),
         copy: reading.number(),
         owner: reading.number(),
     });
-    more(&mut e.evaluations, turns.into_iter())
+    turns.into()
 }
 
 fn write_place(place: Operand, draft: &mut Draft) {
@@ -291,13 +288,6 @@ fn read_place(reading: &mut Reading<'_>) -> (bool, Affine) {
 fn declaration(system: &System, source: usize) -> [u32; 2] {
     let address = system.states.get(source).map_or(0, |state| Arc::as_ptr(&state.declared).addr());
     [address as u32, (address >> 32) as u32]
-}
-
-/// Appends to a table; what was appended.
-fn more<T>(table: &mut Vec<T>, items: impl Iterator<Item = T>) -> Range<u32> {
-    let start = table.len() as u32;
-    table.extend(items);
-    start..table.len() as u32
 }
 
 fn span(range: &Range<u32>) -> Range<usize> {

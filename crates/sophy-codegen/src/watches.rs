@@ -55,7 +55,7 @@ pub(crate) fn read_watch(reading: &mut Reading<'_>) -> WatchCode {
         formula: Formula::default(),
         left: Formula::default(),
         right: Formula::default(),
-        on_change: 0..0,
+        on_change: Box::default(),
         level: reading.several(|reading| (reading.number(), reading.several(Reading::number).pop())).pop(),
         affine,
         clock,

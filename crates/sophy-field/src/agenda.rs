@@ -7,7 +7,9 @@
 /// wins.
 #[derive(Clone, Debug, Default)]
 pub struct Agenda {
-    /// All matches, round by round, the slots' own first.
+    /// The keys of the times of slots, four by four.
+    slots: Vec<Four>,
+    /// All further matches, round by round.
     matches: Vec<Match>,
     /// Where each round begins.
     rounds: Vec<usize>,
@@ -15,7 +17,11 @@ pub struct Agenda {
     first: (i64, u32),
 }
 
-/// Four players: keys of their times, and which slots they are.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+struct Four([i64; PLAYERS]);
+
+/// Four winners: keys of their times, and which slots they are.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 struct Match {
@@ -32,13 +38,15 @@ impl Agenda {
     /// An agenda of `slots` slots, all without a time.
     pub fn new(slots: usize) -> Self {
         let (mut rounds, mut count) = (Vec::new(), 0);
-        let mut players = slots;
-        while rounds.is_empty() || players > 1 {
+        let fours = slots.div_ceil(PLAYERS).max(1);
+        let mut players = fours;
+        while players > 1 {
             rounds.push(count);
-            players = players.div_ceil(PLAYERS).max(1);
+            players = players.div_ceil(PLAYERS);
             count += players;
         }
-        Agenda { matches: vec![NOBODY; count], rounds, first: (NEVER, 0) }
+        let slots = vec![Four([NEVER; PLAYERS]); fours];
+        Agenda { slots, matches: vec![NOBODY; count], rounds, first: (NEVER, 0) }
     }
 
     /// The earliest time and its slot.
@@ -52,7 +60,7 @@ impl Agenda {
     #[inline]
     pub fn time(&self, slot: u32) -> f64 {
         let slot = slot as usize;
-        match self.matches[slot / PLAYERS].keys[slot % PLAYERS] {
+        match self.slots[slot / PLAYERS].0[slot % PLAYERS] {
             NEVER => f64::INFINITY,
             key => time_of(key),
         }
@@ -61,32 +69,32 @@ impl Agenda {
     /// Gives a slot a time; an infinite one takes it off the agenda. `time` must not be NaN.
     #[inline]
     pub fn set(&mut self, slot: u32, time: f64) {
-        let (mut key, mut winner) = (if time < f64::INFINITY { key_of(time) } else { NEVER }, slot);
-        let mut player = slot as usize;
+        let key = if time < f64::INFINITY { key_of(time) } else { NEVER };
+        let mut player = slot as usize / PLAYERS;
+        let Four(keys) = &mut self.slots[player];
+        keys[slot as usize % PLAYERS] = key;
+        let first = slot - slot % PLAYERS as u32;
+        let mut winner = earliest(*keys, [0, 1, 2, 3].map(|seat| first + seat));
         for &round in &self.rounds {
             let players = &mut self.matches[round + player / PLAYERS];
             let seat = player % PLAYERS;
-            if players.keys[seat] == key && players.slots[seat] == winner {
+            if (players.keys[seat], players.slots[seat]) == winner {
                 return;
             }
-            players.keys[seat] = key;
-            players.slots[seat] = winner;
-            (key, winner) = players.earliest();
+            (players.keys[seat], players.slots[seat]) = winner;
+            winner = earliest(players.keys, players.slots);
             player /= PLAYERS;
         }
-        self.first = (key, winner);
+        self.first = winner;
     }
 }
 
-impl Match {
-    /// Of equal ones the first: it has the smaller slot.
-    #[inline]
-    fn earliest(&self) -> (i64, u32) {
-        let Match { keys: [a, b, c, d], slots: [i, j, k, l] } = *self;
-        let left = if b < a { (b, j) } else { (a, i) };
-        let right = if d < c { (d, l) } else { (c, k) };
-        if right.0 < left.0 { right } else { left }
-    }
+/// Of equal ones the first: it has the smaller slot.
+#[inline]
+fn earliest([a, b, c, d]: [i64; PLAYERS], [i, j, k, l]: [u32; PLAYERS]) -> (i64, u32) {
+    let left = if b < a { (b, j) } else { (a, i) };
+    let right = if d < c { (d, l) } else { (c, k) };
+    if right.0 < left.0 { right } else { left }
 }
 
 /// A whole number of the order of times; −0 and 0 are one time.

@@ -36,18 +36,10 @@ pub struct Equations {
     /// Their native code, as soon as there is any: a run may go on while it is made. Whoever changes anything else
     /// here takes it out.
     pub kernels: OnceLock<Kernels>,
-    /// Operands of shared programs, by range.
-    pub operands: Vec<Affine>,
     /// Calls that evaluate algebraic variables on the series side: one per location, in a row.
     pub calls: Vec<Call>,
     /// All blocks.
     pub blocks: Vec<Block>,
-    /// Sources read by blocks and formulas, by range: each a [`SourceIndex`].
-    pub reads: Vec<Affine>,
-    /// Rows computed by blocks, by range.
-    pub rows: Vec<RowResult>,
-    /// What is evaluated for sources, automata, watches and formulas, in the order of evaluation, by range.
-    pub evaluations: Vec<Evaluation>,
     /// What sources influence: those of copies have it in common.
     pub influences: Vec<Influence>,
     /// Per source: what it influences.
@@ -87,10 +79,10 @@ impl SourceIndex {
 pub struct Block {
     /// What computes its rows.
     pub call: Call,
-    /// In [`Equations::reads`]: whose quantised trajectories it reads.
-    pub reads: Range<u32>,
-    /// In [`Equations::rows`]: what it computes.
-    pub rows: Range<u32>,
+    /// Whose quantised trajectories it reads: each a [`SourceIndex`].
+    pub reads: Box<[Affine]>,
+    /// What it computes.
+    pub rows: Box<[RowResult]>,
     /// Whether a row bends: then one more order than the engine's is evaluated, to bound its error.
     pub bends: bool,
     /// What reads the result of another block has a higher rank.
@@ -114,10 +106,10 @@ pub struct RowResult {
 /// What a source influences, up to the copy.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Influence {
-    /// In [`Equations::evaluations`]: what reads it.
-    pub on_step: Range<u32>,
-    /// The same of what computes its own rate, where it is a state.
-    pub own: Range<u32>,
+    /// What reads it, in the order of evaluation.
+    pub on_step: Box<[Evaluation]>,
+    /// What computes its own rate, where it is a state.
+    pub own: Box<[Evaluation]>,
 }
 
 /// What is to be evaluated of several that stand in a row, one per location of an automaton; up to the copy.
@@ -162,8 +154,8 @@ impl Turn {
 /// What belongs to one automaton, up to the copy.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AutomatonCode {
-    /// In [`Equations::evaluations`]: what is evaluated when its location changes.
-    pub on_change: Range<u32>,
+    /// What is evaluated when its location changes.
+    pub on_change: Box<[Evaluation]>,
     /// States whose rates it selects, if it can change its location: each a [`StateIndex`].
     pub states: Box<[Affine]>,
     /// Watches that read an algebraic variable of this automaton: what they watch jumps with its location.
@@ -198,8 +190,8 @@ pub struct WatchCode {
     pub stair: Option<(Affine, f64)>,
     /// Watches that read a truth or stair decided by this one.
     pub dependents: Box<[Affine]>,
-    /// In [`Equations::evaluations`]: what is evaluated when a truth or stair decided by it changes.
-    pub on_change: Range<u32>,
+    /// What is evaluated when a truth or stair decided by it changes.
+    pub on_change: Box<[Evaluation]>,
 }
 
 /// The code of a stair.
@@ -244,10 +236,10 @@ impl StairCode {
 pub struct Formula {
     /// What computes it.
     pub call: Call,
-    /// In [`Equations::reads`]: whose integrated trajectories it reads, prerequisites included.
-    pub reads: Range<u32>,
-    /// In [`Equations::evaluations`]: the calls to run first.
-    pub before: Range<u32>,
+    /// Whose integrated trajectories it reads, prerequisites included: each a [`SourceIndex`].
+    pub reads: Box<[Affine]>,
+    /// The calls to run first.
+    pub before: Box<[Evaluation]>,
     /// Where the value stands.
     pub at: Affine,
     /// Whether a jet stands there, not a scalar.
@@ -264,12 +256,8 @@ impl Equations {
             enclose,
             programs: Vec::new(),
             kernels: OnceLock::new(),
-            operands: Vec::new(),
             calls: Vec::new(),
             blocks: Vec::new(),
-            reads: Vec::new(),
-            rows: Vec::new(),
-            evaluations: Vec::new(),
             influences: Vec::new(),
             sites: Vec::new(),
             automaton_codes: Vec::new(),
@@ -286,12 +274,8 @@ impl Equations {
     /// Gives back what tables took to grow.
     pub fn shrink_to_fit(&mut self) {
         self.programs.shrink_to_fit();
-        self.operands.shrink_to_fit();
         self.calls.shrink_to_fit();
         self.blocks.shrink_to_fit();
-        self.reads.shrink_to_fit();
-        self.rows.shrink_to_fit();
-        self.evaluations.shrink_to_fit();
         self.influences.shrink_to_fit();
         self.sites.shrink_to_fit();
         self.automata.shrink_to_fit();
@@ -310,7 +294,7 @@ impl Equations {
         own.iter().map(|evaluation| evaluation.of(copy)).any(|turn| {
             let locations = self.automaton(turn.owner).0.armed.len();
             let blocks = &self.blocks[turn.first as usize..][..locations];
-            let mut rows = blocks.iter().flat_map(|block| self.rows(block));
+            let mut rows = blocks.iter().flat_map(|block| &block.rows);
             rows.any(|row| row.bends && row.state.of(turn.copy) == state.0)
         })
     }
@@ -325,7 +309,7 @@ impl Equations {
         {
             // SAFETY: `kernels` were made for these equations, and memory has their length. Of a copy that is none an
             // operand would lie elsewhere, but copies come from sites only.
-            unsafe { kernel(self.operands(call).as_ptr(), copy, memory.as_mut_ptr()) };
+            unsafe { kernel(call.operands.as_ptr(), copy, memory.as_mut_ptr()) };
             return;
         }
         self.interpret(call, copy, memory, orders);
@@ -333,16 +317,11 @@ impl Equations {
 
     #[inline(never)]
     fn interpret(&self, call: &Call, copy: u32, memory: &mut [f64], orders: usize) {
-        (self.run)(&self.programs[call.program as usize], self.operands(call), copy, memory, orders);
-    }
-
-    #[inline]
-    fn operands(&self, call: &Call) -> &[Affine] {
-        &self.operands[call.operands.start as usize..call.operands.end as usize]
+        (self.run)(&self.programs[call.program as usize], &call.operands, copy, memory, orders);
     }
 
     fn execute_enclosed(&self, call: &Call, copy: u32, memory: &mut Enclosing<'_>, orders: usize) {
-        (self.enclose)(&self.programs[call.program as usize], self.operands(call), copy, memory, orders);
+        (self.enclose)(&self.programs[call.program as usize], &call.operands, copy, memory, orders);
     }
 
     /// Runs the program of a formula on `memory`, in which the present time and the records of its sources must stand,
@@ -380,7 +359,7 @@ impl Equations {
         memory: &mut [f64],
         orders: usize,
     ) {
-        for turn in self.turns(&formula.before, copy) {
+        for turn in turns_of(&formula.before, copy) {
             self.execute(&self.calls[turn.at(locations)], turn.copy, memory, orders);
         }
         self.execute(&formula.call, copy, memory, orders);
@@ -394,7 +373,7 @@ impl Equations {
         memory: &mut Enclosing<'_>,
     ) -> [Interval; 3] {
         let orders = (self.layout.width as usize).min(3);
-        for turn in self.turns(&formula.before, copy) {
+        for turn in turns_of(&formula.before, copy) {
             self.execute_enclosed(&self.calls[turn.at(locations)], turn.copy, memory, orders);
         }
         self.execute_enclosed(&formula.call, copy, memory, orders);
@@ -415,16 +394,14 @@ impl Equations {
     #[inline]
     pub fn influence(&self, source: usize) -> (&[Evaluation], u32) {
         let Site { pattern, copy } = self.sites[source];
-        let Range { start, end } = self.influences[pattern as usize].on_step;
-        (&self.evaluations[start as usize..end as usize], copy)
+        (&self.influences[pattern as usize].on_step, copy)
     }
 
     /// What evaluates the rate of a state, in the order of evaluation, and the copy of it.
     #[inline]
     pub fn own(&self, state: usize) -> (&[Evaluation], u32) {
         let Site { pattern, copy } = self.sites[state];
-        let Range { start, end } = self.influences[pattern as usize].own;
-        (&self.evaluations[start as usize..end as usize], copy)
+        (&self.influences[pattern as usize].own, copy)
     }
 
     /// The blocks that evaluate the rate of a state in the present locations, and which copy of them.
@@ -433,9 +410,8 @@ impl Equations {
         state: usize,
         locations: &'a [LocationIndex],
     ) -> impl Iterator<Item = (&'a Block, u32)> {
-        let (evaluations, copy) = self.own(state);
-        let turns = evaluations.iter().map(move |evaluation| evaluation.of(copy));
-        turns.map(move |turn| (self.block(turn, locations), turn.copy))
+        let (own, copy) = self.own(state);
+        turns_of(own, copy).map(move |turn| (self.block(turn, locations), turn.copy))
     }
 
     /// The block of a turn in the present locations.
@@ -447,26 +423,6 @@ impl Equations {
     /// The rank of a turn: what needs it has a higher one.
     pub fn rank(&self, turn: Turn) -> u32 {
         self.blocks[turn.first as usize].rank.of(turn.copy)
-    }
-
-    /// The rows of a block.
-    #[inline]
-    pub fn rows(&self, block: &Block) -> &[RowResult] {
-        &self.rows[block.rows.start as usize..block.rows.end as usize]
-    }
-
-    /// The sources that a copy of a block or formula reads, from its range.
-    #[inline]
-    pub fn sources(&self, reads: &Range<u32>, copy: u32) -> impl Iterator<Item = SourceIndex> + Clone {
-        let reads = self.reads[reads.start as usize..reads.end as usize].iter();
-        reads.map(move |source| SourceIndex(source.of(copy)))
-    }
-
-    /// The turns of a range, of a copy of whoever asks for them.
-    #[inline]
-    pub fn turns(&self, range: &Range<u32>, copy: u32) -> impl Iterator<Item = Turn> {
-        let evaluations = self.evaluations[range.start as usize..range.end as usize].iter();
-        evaluations.map(move |evaluation| evaluation.of(copy))
     }
 
     /// The formula of an output in the present locations, and which copy of it.
@@ -489,6 +445,18 @@ impl Equations {
         let Site { pattern, copy } = self.automata[automaton.position()];
         (&self.automaton_codes[pattern as usize], copy)
     }
+}
+
+/// The sources that a copy of a block or formula reads.
+#[inline]
+pub fn sources_of(reads: &[Affine], copy: u32) -> impl Iterator<Item = SourceIndex> + Clone {
+    reads.iter().map(move |source| SourceIndex(source.of(copy)))
+}
+
+/// What is to be evaluated for a copy.
+#[inline]
+pub fn turns_of(evaluations: &[Evaluation], copy: u32) -> impl Iterator<Item = Turn> {
+    evaluations.iter().map(move |evaluation| evaluation.of(copy))
 }
 
 /// What stands at a place: four numbers, of a scalar the first one. Memory ends with room for a jet.

@@ -23,7 +23,7 @@ pub use copies::{Affine, Site};
 pub use engine::{Changes, Engine, Fault, Start, Statistics, Stop};
 pub use equations::{
     AutomatonCode, Block, Equations, Evaluation, Formula, Influence, RowResult, SourceIndex, StairCode, Turn,
-    WatchCode,
+    WatchCode, sources_of, turns_of,
 };
 pub use index::{
     AlgebraicIndex, AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, OutputIndex,

@@ -11,7 +11,30 @@ pub struct Memory {
 #[repr(C, align(64))]
 struct Line([f64; 8]);
 
+#[allow(unsafe_code)]
 impl Memory {
+    /// So many cache lines from the `at`-th group of so many on.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    #[inline]
+    pub fn lines<const LINES: usize>(&self, at: usize) -> &[[f64; 8]; LINES] {
+        let lines = &self.lines.as_chunks::<LINES>().0[at];
+        // SAFETY: a line is eight numbers without padding.
+        unsafe { &*std::ptr::from_ref(lines).cast() }
+    }
+
+    /// The same, to be written.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    #[inline]
+    pub fn lines_mut<const LINES: usize>(&mut self, at: usize) -> &mut [[f64; 8]; LINES] {
+        let lines = &mut self.lines.as_chunks_mut::<LINES>().0[at];
+        // SAFETY: as `lines`; they are borrowed as a whole.
+        unsafe { &mut *std::ptr::from_mut(lines).cast() }
+    }
+
     /// So many zeros, and then these numbers.
     pub fn behind(zeros: usize, numbers: &[f64]) -> Self {
         let length = zeros + numbers.len();
@@ -54,6 +77,11 @@ mod tests {
             assert_eq!(memory[3..], numbers[..]);
             assert_eq!(memory.clone()[..], memory[..]);
             assert_eq!(memory.as_ptr() as usize % 64, 0);
+            for at in 0..memory.len() / 16 {
+                assert_eq!(memory.lines::<2>(at).as_flattened(), &memory[16 * at..][..16]);
+                memory.lines_mut::<1>(at)[0][7] += 1.0;
+                assert_eq!(memory.lines::<1>(at)[0][..], memory[8 * at..][..8]);
+            }
             if let Some(last) = memory.last_mut() {
                 *last = -1.0;
                 assert_eq!(memory[length as usize + 2], -1.0);

@@ -4,7 +4,6 @@ use crate::Affine;
 use sophy_segment::Interval;
 use std::any::Any;
 use std::fmt;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// One operation on memory. Operands and result are offsets: a *jet* is `width` consecutive numbers (value
@@ -162,8 +161,8 @@ pub struct Program {
 pub struct Call {
     /// Index of the program; an empty one where there is nothing to compute.
     pub program: u32,
-    /// In [`crate::Equations::operands`]: its operands, none if it is absolute.
-    pub operands: Range<u32>,
+    /// Its operands, none if it is absolute.
+    pub operands: Box<[Affine]>,
 }
 
 /// Taylor coefficients `x⁽ᵏ⁾/k!` of a quantity, as many as any engine of this family reads: order 3, and one more to bound

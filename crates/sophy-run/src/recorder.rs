@@ -5,7 +5,7 @@ use crate::experiment::{Experiment, ExperimentError};
 use crate::grid::Grid;
 use crate::run::Run;
 use sophy_codegen::Compiled;
-use sophy_field::{AlgebraicIndex, Jet, LocationIndex, Memory, NOW, Record, SourceIndex, Turn};
+use sophy_field::{AlgebraicIndex, Jet, LocationIndex, Memory, NOW, Record, SourceIndex, Turn, sources_of};
 use sophy_ir::{Leaf, Linearity, NodeId, System};
 use sophy_record::{Column, Row, Schema, Sink, SinkError, Trajectory};
 use std::sync::Arc;
@@ -124,7 +124,7 @@ impl Recorder {
             let Real::Output(index) = shown else { continue };
             let Turn { first, copy, .. } = e.outputs[index];
             let formulas = &e.formulas[first as usize..][..system.nodes(system.outputs[index].value).len()];
-            for source in formulas.iter().flat_map(|formula| e.sources(&formula.reads, copy)) {
+            for source in formulas.iter().flat_map(|formula| sources_of(&formula.reads, copy)) {
                 self.read[source.position()] = true;
             }
         }

@@ -144,7 +144,7 @@ impl Asked {
             if width != 3 {
                 asked.call(&block.call, &[2]);
             }
-            for row in equations.rows(block) {
+            for row in &block.rows {
                 asked.result(&block.call, row.at, row.is_jet, width);
             }
         }
@@ -173,7 +173,7 @@ impl Asked {
 
     fn call(&mut self, call: &Call, orders: &[usize]) {
         for &orders in orders {
-            self.calls[orders - 1][call.program as usize] = Some(call.operands.end - call.operands.start);
+            self.calls[orders - 1][call.program as usize] = Some(call.operands.len() as u32);
         }
     }
 

@@ -264,7 +264,7 @@ impl Case {
         let e = &self.compiled.equations;
         for (block, copy) in e.own_blocks(state, &HERE) {
             e.execute(&block.call, copy, memory, orders);
-            if let Some(row) = e.rows(block).iter().find(|row| row.state.of(copy) as usize == state) {
+            if let Some(row) = block.rows.iter().find(|row| row.state.of(copy) as usize == state) {
                 let mut rate = e.rate(row, copy, memory);
                 rate.iter_mut().skip(orders).for_each(|c| *c = 0.0);
                 return rate;

@@ -1,7 +1,7 @@
 //! Rates that bend: what their segments leave out is bounded by evaluating them again.
 
 use super::engine::Qss;
-use sophy_field::{Block, Equations, Jet, SourceIndex};
+use sophy_field::{Block, Jet, SourceIndex, sources_of};
 use sophy_segment::{cube_root, cubic_leaves};
 
 /// What a rate does that its segment leaves out.
@@ -76,7 +76,7 @@ impl<const ORDER: usize> Qss<ORDER> {
 
     /// How long, s, no source of a block moves by a quantum: until then its rates are those of the present place, as
     /// far as they are known at all.
-    pub(super) fn still_for(&self, e: &Equations, block: &Block, copy: u32) -> f64 {
+    pub(super) fn still_for(&self, block: &Block, copy: u32) -> f64 {
         let still = |source: SourceIndex| {
             let record = self.record(source.position());
             let ([_, q1, q2], quantum) = (record.q(), record.quantum());
@@ -88,6 +88,6 @@ impl<const ORDER: usize> Qss<ORDER> {
                 (false, true) => cubic_leaves([0.0, q1, q2, 0.0], quantum),
             }
         };
-        e.sources(&block.reads, copy).map(still).fold(f64::INFINITY, f64::min)
+        sources_of(&block.reads, copy).map(still).fold(f64::INFINITY, f64::min)
     }
 }

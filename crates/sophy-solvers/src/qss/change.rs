@@ -67,7 +67,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         for &turn in turns {
             let (block, copy) = (e.block(turn, &self.locations), turn.copy);
             self.run_block(e, (block, copy), t, known);
-            for row in e.rows(block) {
+            for row in &block.rows {
                 let state = StateIndex(row.state.of(copy));
                 if fresh.binary_search(&state).is_ok() {
                     let rate = e.rate(row, copy, &self.memory);

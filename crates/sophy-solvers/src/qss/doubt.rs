@@ -6,7 +6,7 @@
 //! states it reads begin anew at x.
 
 use super::engine::Qss;
-use sophy_field::{Equations, Fault, Journal, WatchIndex};
+use sophy_field::{Equations, Fault, Journal, WatchIndex, sources_of};
 use sophy_segment::Sign;
 
 impl<const ORDER: usize> Qss<ORDER> {
@@ -21,7 +21,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let (code, copy) = e.watch(watch);
         let mut kept = std::mem::take(&mut self.doubting);
         let mut stiff = false;
-        for source in e.sources(&code.formula.reads, copy) {
+        for source in sources_of(&code.formula.reads, copy) {
             let i = source.position();
             if i >= self.ahead.len() {
                 continue;
@@ -62,7 +62,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// Whether a watch on the surface cannot be decided by the rates there are, because they hide those at x.
     pub(super) fn reads_hidden_rates(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> bool {
         let (code, copy) = e.watch(watch);
-        e.sources(&code.formula.reads, copy).any(|source| {
+        sources_of(&code.formula.reads, copy).any(|source| {
             let i = source.position();
             i < self.ahead.len() && is_hidden(self.linear(e, i, t).a, t - self.record(i).tq())
         })
@@ -77,7 +77,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         journal: &mut Journal,
     ) -> Result<(), Fault> {
         let (code, copy) = e.watch(watch);
-        for source in e.sources(&code.formula.reads, copy) {
+        for source in sources_of(&code.formula.reads, copy) {
             if source.position() < self.ahead.len() {
                 self.step_from_x(e, source.position(), t, journal).map_err(|failed| self.why(failed))?;
             }

@@ -7,7 +7,7 @@ use super::settings::Settings;
 use super::watches::WatchRecord;
 use sophy_field::{
     Agenda, AutomatonIndex, Changes, Engine, Equations, Fault, Formula, Jet, Journal, LocationIndex, Memory,
-    NOW, SourceIndex, Start, StateIndex, Statistics, Stop, Turn, WatchIndex,
+    NOW, SourceIndex, Start, StateIndex, Statistics, Stop, Turn, WatchIndex, sources_of, turns_of,
 };
 use sophy_segment::{Interval, Sign};
 use std::cmp::Reverse;
@@ -119,14 +119,20 @@ impl<const ORDER: usize> Qss<ORDER> {
     /// The record of a source.
     #[inline]
     pub(super) fn record(&self, source: usize) -> Record<'_, ORDER> {
-        let stride = Place::<ORDER>::STRIDE;
-        Record(&self.memory[(source + 1) * stride..][..stride])
+        let at = source + 1;
+        Record(match Place::<ORDER>::LINES {
+            1 => self.memory.lines::<1>(at).as_flattened(),
+            _ => self.memory.lines::<2>(at).as_flattened(),
+        })
     }
 
     #[inline]
     pub(super) fn record_mut(&mut self, source: usize) -> RecordMut<'_, ORDER> {
-        let stride = Place::<ORDER>::STRIDE;
-        RecordMut(&mut self.memory[(source + 1) * stride..][..stride])
+        let at = source + 1;
+        RecordMut(match Place::<ORDER>::LINES {
+            1 => self.memory.lines_mut::<1>(at).as_flattened_mut(),
+            _ => self.memory.lines_mut::<2>(at).as_flattened_mut(),
+        })
     }
 
     #[cold]
@@ -244,7 +250,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         for &(automaton, location) in &changes.locations {
             self.enter(e, automaton.position(), location);
             let (code, copy) = e.automaton(automaton);
-            self.turns.extend(e.turns(&code.on_change, copy));
+            self.turns.extend(turns_of(&code.on_change, copy));
             if journal.wanted {
                 journal.push(sophy_field::Record::Location { time: at, automaton, location });
             }
@@ -297,7 +303,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
         for state in 0..e.layout.states as usize {
             sources.clear();
             for (block, copy) in e.own_blocks(state, &self.locations) {
-                sources.extend(e.sources(&block.reads, copy).map(SourceIndex::position));
+                sources.extend(sources_of(&block.reads, copy).map(SourceIndex::position));
             }
             sources.sort_unstable();
             sources.dedup();
@@ -306,7 +312,7 @@ impl<const ORDER: usize> Engine for Qss<ORDER> {
                 let mut slope = 0.0;
                 for (block, copy) in e.own_blocks(state, &self.locations) {
                     e.execute(&block.call, copy, &mut memory, 2);
-                    let own = e.rows(block).iter().find(|row| row.state.of(copy) as usize == state);
+                    let own = block.rows.iter().find(|row| row.state.of(copy) as usize == state);
                     slope = own.map_or(slope, |row| e.rate(row, copy, &memory)[1]);
                 }
                 still(&mut memory, source, 0.0);

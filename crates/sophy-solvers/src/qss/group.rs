@@ -12,7 +12,7 @@
 //! Both are L-stable, so that they end at rest.
 
 use super::engine::Qss;
-use sophy_field::{Equations, StateIndex};
+use sophy_field::{Equations, StateIndex, sources_of};
 
 /// The most states of a group.
 pub(super) const MOST: usize = 12;
@@ -120,7 +120,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let mut m = 0;
         while m < count {
             for (block, copy) in e.own_blocks(found[m], &self.locations) {
-                for source in e.sources(&block.reads, copy) {
+                for source in sources_of(&block.reads, copy) {
                     let source = source.position();
                     let known = found[..count].iter().position(|&f| f == source);
                     let restless = self.ahead.get(source).is_some_and(|s| s.whereabouts.becomes_restless());

@@ -23,7 +23,7 @@
 
 use super::engine::Qss;
 use super::group::Whereabouts;
-use sophy_field::Equations;
+use sophy_field::{Equations, sources_of};
 use sophy_segment::rising_root;
 
 /// The rate of a state along its quantised trajectory: a·q + u.
@@ -232,7 +232,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             let turn = evaluation.of(copy);
             let (block, copy) = (e.block(turn, &self.locations), turn.copy);
             // The others stand still.
-            for source in e.sources(&block.reads, copy) {
+            for source in sources_of(&block.reads, copy) {
                 let source = source.position();
                 let record = self.record(source);
                 let (q, value) = ((record.q(), record.tq()), record.q_at(t));
@@ -243,11 +243,11 @@ impl<const ORDER: usize> Qss<ORDER> {
             // As many coefficients as its rates have anyway, so that one native function serves both.
             self.run_block(e, (block, copy), t, if ORDER == 2 && block.bends { 3 } else { 2 });
             let mut kept = std::mem::take(&mut self.kept);
-            for (source, (q, start)) in e.sources(&block.reads, copy).zip(kept.drain(..)) {
+            for (source, (q, start)) in sources_of(&block.reads, copy).zip(kept.drain(..)) {
                 self.record_mut(source.position()).set_q(q, start);
             }
             self.kept = kept;
-            for row in e.rows(block) {
+            for row in &block.rows {
                 if row.state.of(copy) as usize == state {
                     slope = e.rate(row, copy, &self.memory)[1];
                 }

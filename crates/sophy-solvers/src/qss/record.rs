@@ -8,8 +8,8 @@ pub(super) struct Place<const ORDER: usize>;
 
 impl<const ORDER: usize> Place<ORDER> {
     const LAYOUT: RecordLayout = RecordLayout::of_order(ORDER as u32);
-    /// Numbers per record.
-    pub(super) const STRIDE: usize = Self::LAYOUT.stride as usize;
+    /// Cache lines per record.
+    pub(super) const LINES: usize = Self::LAYOUT.stride as usize / 8;
     /// Coefficients of x, which come first.
     pub(super) const X: usize = Self::LAYOUT.integrated as usize;
     /// Start of x, s.
@@ -166,18 +166,20 @@ pub(super) fn leaves_from_middle<const ORDER: usize>([_, x1, x2, x3]: Jet, quant
 
 /// Delay until |d₀ + d₁s + d₂s²| reaches the quantum.
 ///
-/// Only the edge that it can reach first is solved for, in the form of the root that does not cancel.
+/// Only the edge that it can reach first is solved for, in the form of the root that does not cancel. No delay is given
+/// where a coefficient is not finite: it is 0 or not a number.
 #[inline]
 fn parabola_leaves([d0, d1, d2]: [f64; 3], quantum: f64) -> f64 {
     // Mirrored so that the parabola opens upwards and ends at the upper edge.
     let side = if d2 < 0.0 || (d2 == 0.0 && d1 < 0.0) { -1.0 } else { 1.0 };
     let (d0, d1, d2) = (side * d0, side * d1, side * d2);
     let (up, down) = (quantum - d0, quantum + d0);
-    if up <= 0.0 || down <= 0.0 {
+    let is_inside = up > 0.0 && down > 0.0;
+    if !is_inside {
         return 0.0;
     }
     if d2 == 0.0 {
-        return if d1 > 0.0 { up / d1 } else { f64::INFINITY };
+        return if d1 == 0.0 { f64::INFINITY } else { up / d1 };
     }
     // What is chosen rather than branched to costs nothing: signs of curvatures cannot be foreseen.
     let square = d1 * d1;
@@ -196,6 +198,17 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #[test]
+        fn there_is_no_delay_of_what_is_not_finite(
+            numbers in prop::array::uniform3(prop_oneof![Just(0.0), -5.0f64..5.0, Just(1e300), Just(-1e-300)]),
+            which in 0..3_usize,
+            odd in prop::sample::select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY]),
+        ) {
+            let mut d = numbers;
+            d[which] = odd;
+            prop_assert!(!(parabola_leaves(d, 1.0) > 0.0), "{d:?}");
+        }
+
         /// The delay is the first time at which |x − q| reaches the quantum, by dense search.
         #[test]
         fn the_band_is_left_when_predicted(

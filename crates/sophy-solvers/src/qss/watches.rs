@@ -4,6 +4,7 @@ use super::engine::Qss;
 use super::steps::MOST_REPEATS;
 use sophy_field::{
     Enclosing, Equations, Fault, Formula, Jet, Journal, NOW, Record, SourceIndex, WatchIndex, sign_bit,
+    sources_of, turns_of,
 };
 use sophy_segment::{Interval, Search, Sign, Start, cubic_crossing, first_crossing, parabola_crossing};
 use std::cmp::Reverse;
@@ -260,7 +261,7 @@ impl<const ORDER: usize> Qss<ORDER> {
             let value = self.value_of(e, (&code.formula, copy), t, 1)[0];
             changed |= self.publish(e, watch, Sign::of(value - record.bias));
             if changed {
-                self.turns.extend(e.turns(&code.on_change, copy));
+                self.turns.extend(turns_of(&code.on_change, copy));
                 self.mark_dependents(e, watch);
             }
         }
@@ -360,7 +361,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let changed = self.publish(e, watch, sign);
         let stepped = self.step_stair(e, watch, sign, located, t)?;
         if changed || stepped {
-            for turn in e.turns(&code.on_change, copy) {
+            for turn in turns_of(&code.on_change, copy) {
                 self.evaluate_turn(e, turn, t, journal).map_err(|failed| self.why(failed))?;
             }
             self.mark_dependents(e, watch);
@@ -435,8 +436,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     ) -> Result<(f64, Due), Fault> {
         let (code, copy) = e.watch(watch);
         // Segments change with the next step of a source: no need to look much further.
-        let next = e
-            .sources(&code.formula.reads, copy)
+        let next = sources_of(&code.formula.reads, copy)
             .filter(|source| source.0 < e.layout.states)
             .map(|source| self.agenda.time(source.0))
             .fold(f64::INFINITY, f64::min);
