@@ -109,11 +109,6 @@ impl Method {
         }
     }
 
-    /// Whether its quantisation is linearly implicit.
-    pub(crate) fn is_implicit(self) -> bool {
-        matches!(self, Method::Liqss1 | Method::Liqss2 | Method::Liqss3)
-    }
-
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,6 +1,6 @@
 use crate::backend::Evaluation;
 use crate::configure::configure;
-use crate::experiment::{Experiment, ExperimentError};
+use crate::experiment::{Experiment, ExperimentError, Method};
 use crate::failure::Failure;
 use crate::initial::{initial_states, moved};
 use crate::inputs::Inputs;
@@ -12,7 +12,7 @@ use sophy_field::{
 };
 use sophy_hybrid::{Accumulation, Control, Counts, HybridError, Taken};
 use sophy_ir::System;
-use sophy_solvers::{Qss1, Qss2, Qss3, Quantum, Settings};
+use sophy_solvers::{Liqss1, Liqss2, Liqss3, Qss1, Qss2, Qss3, Quantum, Settings};
 use std::sync::Arc;
 
 /// One run of a system under an experiment.
@@ -93,12 +93,14 @@ impl Run {
         watch(&system, equations, parameters, &configured.quanta, moved);
         let equations = &compiled.equations;
         let quanta = runs(&configured.quanta);
-        let mut settings = Settings::for_span(configured.quanta, experiment.stop - experiment.start);
-        settings.implicit = experiment.method.is_implicit();
-        let engine: Box<dyn Engine> = match configured.order {
-            1 => Box::new(Qss1::new(equations, settings)),
-            2 => Box::new(Qss2::new(equations, settings)),
-            _ => Box::new(Qss3::new(equations, settings)),
+        let settings = Settings::for_span(configured.quanta, experiment.stop - experiment.start);
+        let engine: Box<dyn Engine> = match experiment.method {
+            Method::Qss1 => Box::new(Qss1::new(equations, settings)),
+            Method::Auto | Method::Qss2 => Box::new(Qss2::new(equations, settings)),
+            Method::Qss3 => Box::new(Qss3::new(equations, settings)),
+            Method::Liqss1 => Box::new(Liqss1::new(equations, settings)),
+            Method::Liqss2 => Box::new(Liqss2::new(equations, settings)),
+            Method::Liqss3 => Box::new(Liqss3::new(equations, settings)),
         };
         let control = Control::new(&compiled.logic);
         let mut run = Run {

@@ -7,4 +7,4 @@
 
 mod qss;
 
-pub use qss::{Qss, Qss1, Qss2, Qss3, Quantum, Settings};
+pub use qss::{Liqss1, Liqss2, Liqss3, Qss, Qss1, Qss2, Qss3, Quantum, Settings};

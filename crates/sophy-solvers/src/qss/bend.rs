@@ -52,7 +52,7 @@ impl Bend {
     }
 }
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// The rate of a state, just evaluated, bends.
     #[inline]
     pub(super) fn bend(&mut self, i: usize, t: f64, [_, f1, f2, f3]: Jet) {

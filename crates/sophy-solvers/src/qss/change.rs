@@ -7,7 +7,7 @@ use sophy_field::{
     AutomatonIndex, Equations, Fault, Journal, LocationIndex, SourceIndex, StateIndex, Turn, WatchIndex,
 };
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// Evaluates what a change concerns: the turns collected, and what fresh states influence. Twice, for
     /// values first, so that the quantised trajectories of fresh states start with their slopes.
     pub(super) fn evaluate_afresh(
@@ -90,7 +90,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         record.set_q([x, 0.0, 0.0], t);
         record.set_quantum(quantum);
         self.own[i].repeats = 0;
-        if self.settings.implicit {
+        if IMPLICIT {
             self.ahead[i] = Ahead::NEW;
         }
     }

@@ -9,7 +9,7 @@ use super::engine::Qss;
 use sophy_field::{Equations, Fault, Journal, WatchIndex, sources_of};
 use sophy_segment::Sign;
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// Whether a watch that is about to lose its sign at `t` would keep it, had its states the rates that belong to
     /// their places. It is asked once at an instant.
     pub(super) fn turns_back(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<bool, Fault> {

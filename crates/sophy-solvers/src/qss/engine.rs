@@ -13,19 +13,25 @@ use sophy_segment::{Interval, Sign};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// QSS1 and LIQSS1.
-pub type Qss1 = Qss<1>;
-/// QSS2 and LIQSS2.
-pub type Qss2 = Qss<2>;
-/// QSS3 and LIQSS3.
-pub type Qss3 = Qss<3>;
+/// Explicit, of the first order.
+pub type Qss1 = Qss<1, false>;
+/// Explicit, of the second order.
+pub type Qss2 = Qss<2, false>;
+/// Explicit, of the third order.
+pub type Qss3 = Qss<3, false>;
+/// Linearly implicit, of the first order.
+pub type Liqss1 = Qss<1, true>;
+/// Linearly implicit, of the second order.
+pub type Liqss2 = Qss<2, true>;
+/// Linearly implicit, of the third order.
+pub type Liqss3 = Qss<3, true>;
 
-/// The quantised-state engine of order `ORDER`; which quantisation is a setting.
+/// The quantised-state engine of order `ORDER`, with linearly implicit quantisation (LIQSS) if `IMPLICIT`.
 ///
 /// Equations must have been compiled for the same order. Slots of the agenda: the states (change of q, or
 /// evaluation of a rate that bends), then the watches.
 #[derive(Clone, Debug)]
-pub struct Qss<const ORDER: usize> {
+pub struct Qss<const ORDER: usize, const IMPLICIT: bool> {
     pub(super) settings: Settings,
     /// Per state.
     pub(super) own: Vec<Own>,
@@ -79,7 +85,7 @@ const KEPT: usize = 4096;
 /// So many enclosures count as a step of the budget.
 const ENCLOSURES_PER_STEP: u64 = 4;
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// An engine that has not been started.
     pub fn new(equations: &Equations, mut settings: Settings) -> Self {
         let layout = equations.layout;
@@ -87,7 +93,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         let rest = &equations.image;
         let (mut own, quanta) = Own::of(&std::mem::take(&mut settings.quanta));
         Qss {
-            ahead: vec![Ahead::NEW; if settings.implicit { states } else { 0 }],
+            ahead: vec![Ahead::NEW; if IMPLICIT { states } else { 0 }],
             bends: Own::find_bends(&mut own, equations),
             own,
             quanta,
@@ -159,7 +165,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     }
 }
 
-impl<const ORDER: usize> Engine for Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Engine for Qss<ORDER, IMPLICIT> {
     fn start(&mut self, e: &Equations, start: &Start<'_>, journal: &mut Journal) -> Result<(), Fault> {
         let t = start.time;
         for (i, &value) in start.states.iter().enumerate() {

@@ -65,7 +65,7 @@ impl Whereabouts {
     }
 }
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// Puts a restless state at rest with those about it; its own quantised trajectory is given back, the others follow
     /// theirs and wait in `joined`. `None` if that cannot be.
     pub(super) fn rest_together(&mut self, e: &Equations, i: usize, t: f64) -> Option<[f64; 3]> {

@@ -169,7 +169,7 @@ const HARDLY: f64 = 0.001;
 /// So many steps in a row in which it has hardly moved are enough.
 const MOST_IDLE: u32 = 3;
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// The next quantised trajectory of a state at its step.
     pub(super) fn quantise_ahead(&mut self, e: &Equations, i: usize, t: f64, quantum: f64) -> [f64; 3] {
         let linear = self.linear(e, i, t);

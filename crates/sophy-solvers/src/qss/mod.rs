@@ -31,5 +31,5 @@ mod stairs;
 mod steps;
 mod watches;
 
-pub use engine::{Qss, Qss1, Qss2, Qss3};
+pub use engine::{Liqss1, Liqss2, Liqss3, Qss, Qss1, Qss2, Qss3};
 pub use settings::{Quantum, Settings};

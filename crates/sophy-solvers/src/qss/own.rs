@@ -76,7 +76,7 @@ impl Quanta {
     }
 }
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// ΔQ of a state at x, the next value of its q.
     #[inline]
     pub(super) fn next_quantum(&mut self, i: usize, x: f64) -> f64 {

@@ -43,8 +43,6 @@ impl Quantum {
 pub struct Settings {
     /// One quantum per state.
     pub quanta: Vec<Quantum>,
-    /// Whether quantisation is linearly implicit (LIQSS).
-    pub implicit: bool,
     /// The longest time, s, for which a rate that bends is trusted without being evaluated again; a guard
     /// against a bend that vanishes at one instant. A hundredth of the run is usual. It does not hold while nothing
     /// that the rate reads moves by a quantum.
@@ -60,6 +58,6 @@ impl Settings {
     /// Usual settings for a run of `span` s; a run of no length counts as one of 1 s.
     pub fn for_span(quanta: Vec<Quantum>, span: f64) -> Self {
         let span = if span > 0.0 { span } else { 1.0 };
-        Settings { quanta, implicit: false, trust: span / 100.0, window: span / 16.0, search_budget: 20_000 }
+        Settings { quanta, trust: span / 100.0, window: span / 16.0, search_budget: 20_000 }
     }
 }

@@ -4,7 +4,7 @@ use super::engine::Qss;
 use sophy_field::{Equations, Fault, WatchIndex};
 use sophy_segment::Sign;
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// A stair is stepped when its lower watch is negative or its upper one is not; whether it was.
     pub(super) fn step_stair(
         &mut self,

@@ -10,7 +10,7 @@ use sophy_field::{Block, Equations, Fault, Jet, Journal, NOW, StateIndex, Turn};
 /// How often a slot may be scheduled at its own instant.
 pub(super) const MOST_REPEATS: u32 = 100;
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     /// A state whose time has come: the edge of its band, or only a rate that bends.
     #[inline]
     pub(super) fn state_due(
@@ -31,12 +31,11 @@ impl<const ORDER: usize> Qss<ORDER> {
         let (before, x) = (record.tq(), record.x_from(t));
         self.count_repeats(i, before, t)?;
         let quantum = self.next_quantum(i, x[0]);
-        let implicit = self.settings.implicit;
-        let q = if implicit { self.quantise_ahead(e, i, t, quantum) } else { explicit::<ORDER>(x) };
+        let q = if IMPLICIT { self.quantise_ahead(e, i, t, quantum) } else { explicit::<ORDER>(x) };
         self.step_to(e, i, t, q, quantum, journal)?;
         // Its own rate, if it was among them, has scheduled it already.
         let evaluated = self.record(i).tx();
-        if evaluated < t && !implicit {
+        if evaluated < t && !IMPLICIT {
             // q is x now, up to the highest coefficient.
             self.due_in(i, t, evaluated, leaves_from_middle::<ORDER>(x, quantum));
         } else if self.agenda.time(i as u32) <= t {
@@ -100,8 +99,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     #[inline]
     pub(super) fn take_quantised(&mut self, i: usize, t: f64, q: [f64; 3], quantum: f64) {
         // Ahead, it begins at the edge of the band and moves inward, but for rounding.
-        let slack =
-            if self.settings.implicit { 1e-9 * quantum + 4.0 * f64::EPSILON * q[0].abs() } else { 0.0 };
+        let slack = if IMPLICIT { 1e-9 * quantum + 4.0 * f64::EPSILON * q[0].abs() } else { 0.0 };
         let mut record = self.record_mut(i);
         record.set_q(q, t);
         record.set_quantum(quantum + slack);
@@ -225,7 +223,7 @@ impl<const ORDER: usize> Qss<ORDER> {
     #[inline(always)]
     fn due_in(&mut self, i: usize, t: f64, evaluated: f64, delay: f64) {
         let mut next = t + delay;
-        if self.settings.implicit {
+        if IMPLICIT {
             next = next.min(self.ahead[i].settles);
         }
         if let Some(bend) = self.bend_of(i).filter(|bend| bend.bends) {

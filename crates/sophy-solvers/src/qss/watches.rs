@@ -103,7 +103,7 @@ impl Default for WatchRecord {
     }
 }
 
-impl<const ORDER: usize> Qss<ORDER> {
+impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     pub(super) fn arm(&mut self, watch: WatchIndex) {
         let record = &mut self.watches[watch.position()];
         record.armed += 1;
@@ -169,7 +169,7 @@ impl<const ORDER: usize> Qss<ORDER> {
         }
         let c = self.difference(e, watch, t)?;
         let decided = self.watches[watch.position()].sign;
-        if self.settings.implicit && self.turns_back(e, watch, t)? {
+        if IMPLICIT && self.turns_back(e, watch, t)? {
             return self.begin_at_x(e, watch, t, journal);
         }
         let sign = if due == Due::Root && decided != Sign::Zero {
@@ -217,7 +217,7 @@ impl<const ORDER: usize> Qss<ORDER> {
                 Fresh::No => self.difference(e, watch, t)?,
                 fresh => self.difference_afresh(e, watch, t, fresh)?,
             };
-            if self.settings.implicit && c[0] == 0.0 && self.reads_hidden_rates(e, watch, t) {
+            if IMPLICIT && c[0] == 0.0 && self.reads_hidden_rates(e, watch, t) {
                 self.step_sources_from_x(e, watch, t, journal)?;
                 c = self.difference(e, watch, t)?;
             }
