@@ -14,6 +14,9 @@ use sophy_ir::{Evaluator, FlatTrigger, Leaf, Node, NodeId, Role};
 /// The most steps of a guard: what several of its parts share is written several times.
 const MOST_STEPS: usize = 1 << 16;
 
+/// What a transition emits: who receives it, and on what condition.
+type Emits = (Box<[EventIndex]>, Option<Wanted>);
+
 /// A transition, as [`TransitionCode`] has it.
 #[derive(Clone, Debug)]
 pub(crate) struct Leads {
@@ -24,7 +27,7 @@ pub(crate) struct Leads {
     events: Option<Box<[EventIndex]>>,
     guard: Guard,
     resets: Box<[(StateIndex, Wanted)]>,
-    emits: Box<[(Box<[EventIndex]>, Option<Wanted>)]>,
+    emits: Box<[Emits]>,
     priority: i32,
     silent: bool,
 }

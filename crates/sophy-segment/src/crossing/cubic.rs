@@ -72,7 +72,7 @@ pub fn cubic_leaves(d: [f64; 4], band: f64) -> f64 {
     Cubic([d0 - edge, d1, d2, d3]).root_behind::<NEAR>(from)
 }
 
-/// The s > 0 at which `c₁ s + c₂ s² + c₃ s³` reaches `value`, to 11 digits.
+/// The s > 0 at which `c₁ s + c₂ s² + c₃ s³` reaches `value`, to 6 digits.
 ///
 /// - `c`: c₁, c₂ and c₃, not negative and not all 0
 /// - `value`: positive
@@ -96,8 +96,9 @@ pub fn rising_root([c1, c2, c3]: [f64; 3], value: f64) -> f64 {
     s
 }
 
-/// Halley's method has three digits for each that it had before: after so small a step, relative to s, 11 of them.
-const ENOUGH: f64 = 1e-4;
+/// Halley's method has three digits for each that it had before: after so small a step, relative to s, 6 of them. A band
+/// is a matter of taste: one that is left a millionth later is as good.
+const ENOUGH: f64 = 1e-2;
 
 /// ∛x of a positive number to a few ulp, by multiplications and divisions only.
 #[must_use]
@@ -339,7 +340,7 @@ impl Cubic {
 
 /// A root to the last digits, for crossings.
 const EXACT: u8 = 0;
-/// A root at which the cubic is zero to 10 digits of its terms, for bands.
+/// A root at which the cubic is zero to 5 digits of its terms, for bands.
 const NEAR: u8 = 1;
 /// A turn is beyond zero if it is by this part of its terms.
 const TOUCHING: f64 = 1.0 / (1_u128 << 100) as f64;
