@@ -206,7 +206,8 @@ mod tests {
         ) {
             let mut d = numbers;
             d[which] = odd;
-            prop_assert!(!(parabola_leaves(d, 1.0) > 0.0), "{d:?}");
+            let delay = parabola_leaves(d, 1.0);
+            prop_assert!(delay.is_nan() || delay == 0.0, "{d:?}");
         }
 
         /// The delay is the first time at which |x − q| reaches the quantum, by dense search.
