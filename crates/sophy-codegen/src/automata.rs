@@ -56,7 +56,7 @@ impl Owned {
                     } else {
                         Box::default()
                     },
-                    readers: readers.row(a).into(),
+                    readers: if changes(gather.system, a) { readers.row(a).into() } else { Box::default() },
                     armed: locations.clone().map(|l| self.armed(gather, a, l).into()).collect(),
                     row_of: locations.map(|l| self.right_hand_sides(gather.system, a, l)).collect(),
                 }

@@ -1,6 +1,7 @@
 use crate::arithmetic::{Binary, Comparison, Unary, integer_power, locate, lookup};
 use crate::class::VariableId;
 use crate::column::Column;
+use crate::packed::Packed;
 use rustc_hash::FxBuildHasher;
 use sophy_field::{
     AlgebraicIndex, ColumnIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex,
@@ -15,7 +16,7 @@ pub struct NodeId(NonZeroU32);
 
 impl NodeId {
     /// The node at a position. One more is kept, so that `Option<NodeId>` is no longer than a position.
-    fn new(position: usize) -> Self {
+    pub(crate) fn new(position: usize) -> Self {
         let next = u32::try_from(position).unwrap_or(u32::MAX).saturating_add(1);
         NodeId(NonZeroU32::new(next).unwrap_or(NonZeroU32::MAX))
     }
@@ -88,6 +89,8 @@ pub enum Node {
 /// every IEEE value (`1·x`, `x/1`, `x¹`, `−(−x)`, constant conditions).
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
+    /// The first nodes, when the graph was built for the time being, and those that have come since.
+    packed: Packed,
     nodes: Vec<Node>,
     /// Where to find a node: its position + 1 at the place of its hash or behind (open addressing), 0 where
     /// there is none. The length is a power of two.
@@ -99,57 +102,70 @@ impl Graph {
     /// The operation of a node.
     #[inline]
     pub fn node(&self, id: NodeId) -> Node {
-        self.nodes[id.position()]
+        self.at(id.position())
+    }
+
+    #[inline]
+    fn at(&self, position: usize) -> Node {
+        match position.checked_sub(self.packed.len()) {
+            Some(behind) => self.nodes[behind],
+            None => self.packed.node(position),
+        }
     }
 
     /// Number of distinct nodes.
     pub fn len(&self) -> usize {
-        self.nodes.len()
+        self.packed.len() + self.nodes.len()
     }
 
     /// All nodes, operands before users.
     pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
-        (0..self.nodes.len()).map(NodeId::new)
+        (0..self.len()).map(NodeId::new)
     }
 
     /// Whether nothing was built yet.
     pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
+        self.len() == 0
     }
 
     fn intern(&mut self, node: Node) -> NodeId {
-        if 2 * self.nodes.len() >= self.known.len() {
+        if 2 * self.len() >= self.known.len() {
             self.grow();
         }
         let mask = self.known.len() - 1;
         let mut at = hash(&node) & mask;
         while let Some(position) = self.known[at].checked_sub(1) {
-            if self.nodes[position as usize] == node {
+            if self.at(position as usize) == node {
                 return NodeId::new(position as usize);
             }
             at = (at + 1) & mask;
         }
-        let id = NodeId::new(self.nodes.len());
+        let id = NodeId::new(self.len());
         self.nodes.push(node);
         self.known[at] = id.0.get();
         id
     }
 
     fn grow(&mut self) {
-        let length = (4 * self.nodes.len()).next_power_of_two().max(16);
+        let length = (4 * self.len()).next_power_of_two().max(16);
         let mut known = vec![0; length];
-        for (position, node) in (1..).zip(&self.nodes) {
-            let mut at = hash(node) & (length - 1);
+        for position in 0..self.len() {
+            let mut at = hash(&self.at(position)) & (length - 1);
             while known[at] != 0 {
                 at = (at + 1) & (length - 1);
             }
-            known[at] = position;
+            known[at] = position as u32 + 1;
         }
         self.known = known;
     }
 
     /// Gives back what only building takes; a node built later costs that once.
     pub fn shrink_to_fit(&mut self) {
+        // Once: what comes later is little.
+        if self.packed.len() == 0 {
+            self.packed = Packed::new(&self.nodes);
+            self.nodes = Vec::new();
+        }
         self.nodes.shrink_to_fit();
         self.known = Vec::new();
     }

@@ -23,6 +23,7 @@ mod linearity;
 mod model;
 mod model_text;
 mod names;
+mod packed;
 mod pieces;
 mod system;
 mod system_text;

@@ -58,6 +58,8 @@ pub(crate) fn connect<'m>(
         joined: HashMap::new(),
     };
     connect_items(builder, &declaration.connections, &mut wiring);
+    wiring.composite.wires.shrink_to_fit();
+    wiring.composite.event_wires.shrink_to_fit();
     wiring
 }
 

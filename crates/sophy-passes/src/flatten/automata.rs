@@ -25,6 +25,7 @@ impl<'a> Flattener<'a> {
             match &class.body {
                 Body::Composite(_) => {}
                 Body::Discrete(_) => self.without_locations(instance),
+                Body::Automaton(_) if self.rests_elsewhere(instance) => {}
                 Body::Automaton(automaton) => {
                     self.component(instance, automaton, &routes);
                     for (number, section) in (1..).zip(&automaton.events) {
@@ -37,6 +38,11 @@ impl<'a> Flattener<'a> {
         if self.system.automata.is_empty() {
             self.without_locations(0);
         }
+    }
+
+    /// Whether the rows of an instance belong to the automaton of an earlier one.
+    fn rests_elsewhere(&self, instance: u32) -> bool {
+        self.automaton_of[instance as usize] < Some(AutomatonIndex::new(self.system.automata.len()))
     }
 
     fn component(&mut self, instance: u32, automaton: &'a HybridAutomaton, routes: &Routes<'a>) {

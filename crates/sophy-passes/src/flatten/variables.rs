@@ -3,7 +3,7 @@
 use super::Flattener;
 use super::facts::Becomes;
 use sophy_field::{AutomatonIndex, InputIndex, StateIndex};
-use sophy_ir::{Body, ComponentIndex, Input, Leaf, Row, State, VariableId, VariableKind};
+use sophy_ir::{Body, Class, ComponentIndex, Input, Leaf, Row, State, VariableId, VariableKind};
 
 impl Flattener<'_> {
     pub(super) fn variables(&mut self) {
@@ -53,15 +53,23 @@ impl Flattener<'_> {
         }
     }
 
-    /// Every component that is no composite has an automaton, followed by one per event section.
+    /// Every component that is no composite has an automaton, followed by one per event section; those in which nothing
+    /// ever happens share the first of theirs.
     fn number_automata(&mut self) {
-        let mut next = 0;
+        let (mut next, mut shared) = (0, None);
         for &instance in &self.tree.order {
-            let sections = match &self.tree.class(instance).body {
+            let class = self.tree.class(instance);
+            let sections = match &class.body {
                 Body::Composite(_) => continue,
                 Body::Discrete(_) => 0,
                 Body::Automaton(automaton) => automaton.events.len(),
             };
+            if is_uneventful(class) {
+                let owner = *shared.get_or_insert(AutomatonIndex::new(next));
+                self.automaton_of[instance as usize] = Some(owner);
+                next += usize::from(owner == AutomatonIndex::new(next));
+                continue;
+            }
             self.automaton_of[instance as usize] = Some(AutomatonIndex::new(next));
             next += 1 + sections;
         }
@@ -71,4 +79,14 @@ impl Flattener<'_> {
     pub(super) fn owner(&self, instance: u32) -> AutomatonIndex {
         self.automaton_of[instance as usize].unwrap_or(AutomatonIndex(0))
     }
+}
+
+/// Whether a component has one nameless location and nothing to react to.
+fn is_uneventful(class: &Class) -> bool {
+    let Body::Automaton(automaton) = &class.body else { return false };
+    let [location] = &automaton.locations[..] else { return false };
+    location.name.is_empty()
+        && location.transitions.is_empty()
+        && automaton.events.is_empty()
+        && class.input_events.is_empty()
 }
