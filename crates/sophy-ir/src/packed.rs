@@ -18,15 +18,19 @@ pub(crate) struct Packed {
     length: u32,
 }
 
-/// Nodes from a position on: as they stand, or copies of the first ones.
+/// Nodes at positions in a row: as they stand, or copies of the first ones.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
     start: u32,
+    end: u32,
     /// Where its nodes begin.
     nodes: u32,
-    /// How many nodes a copy has, and where their strides begin; 0 if nothing repeats.
-    period: u32,
+    /// Where their strides begin.
     strides: u32,
+    /// How many nodes a copy has.
+    period: u32,
+    /// 2⁶⁴/period, rounded up: what is multiplied by it is divided by the period. 0 if nothing repeats.
+    inverse: u64,
 }
 
 /// What an operation refers to: operands, or the index of a leaf.
@@ -57,7 +61,7 @@ impl Packed {
                 continue;
             }
             packed.stand(&nodes[plain..at - period], plain);
-            packed.repeat(&nodes[at - period..][..2 * period], at - period);
+            packed.repeat(&nodes[at - period..][..2 * period], at - period, copies);
             at += (copies - 1) * period;
             plain = at;
         }
@@ -71,33 +75,34 @@ impl Packed {
     /// Nodes that stand as they are.
     fn stand(&mut self, nodes: &[Node], start: usize) {
         if !nodes.is_empty() {
-            self.stretches.push(Stretch {
-                start: start as u32,
-                nodes: self.nodes.len() as u32,
-                period: 0,
-                strides: 0,
-            });
+            self.stretch(start, nodes.len(), 0);
             self.nodes.extend_from_slice(nodes);
         }
     }
 
     /// Nodes whose first two copies these are.
-    fn repeat(&mut self, nodes: &[Node], start: usize) {
+    fn repeat(&mut self, nodes: &[Node], start: usize, copies: usize) {
         let (first, second) = nodes.split_at(nodes.len() / 2);
-        self.stretches.push(Stretch {
-            start: start as u32,
-            nodes: self.nodes.len() as u32,
-            period: first.len() as u32,
-            strides: self.strides.len() as u32,
-        });
+        self.stretch(start, copies * first.len(), first.len() as u32);
         self.nodes.extend_from_slice(first);
         self.strides.extend(first.iter().zip(second).map(|(a, b)| stride(*a, *b)));
     }
 
+    fn stretch(&mut self, start: usize, length: usize, period: u32) {
+        self.stretches.push(Stretch {
+            start: start as u32,
+            end: (start + length) as u32,
+            nodes: self.nodes.len() as u32,
+            strides: self.strides.len() as u32,
+            period,
+            inverse: u64::MAX.checked_div(u64::from(period)).map_or(0, |inverse| inverse.saturating_add(1)),
+        });
+    }
+
     fn find_index(&mut self) {
         let mut stretch = 0;
-        for block in 0..(self.length >> INDEXED) + 1 {
-            while self.stretches.get(stretch + 1).is_some_and(|next| next.start <= block << INDEXED) {
+        for block in 0..self.length.div_ceil(1 << INDEXED) {
+            while self.stretches[stretch].end <= block << INDEXED {
                 stretch += 1;
             }
             self.index.push(stretch as u32);
@@ -112,18 +117,23 @@ impl Packed {
     #[inline]
     pub(crate) fn node(&self, position: usize) -> Node {
         let at = position as u32;
-        let mut stretch = self.index[position >> INDEXED] as usize;
-        while self.stretches.get(stretch + 1).is_some_and(|next| next.start <= at) {
-            stretch += 1;
+        let mut stretch = &self.stretches[self.index[position >> INDEXED] as usize..];
+        while at >= stretch[0].end {
+            stretch = &stretch[1..];
         }
-        let Stretch { start, nodes, period, strides } = self.stretches[stretch];
-        let behind = at - start;
-        if period == 0 {
-            return self.nodes[(nodes + behind) as usize];
+        let stretch = stretch[0];
+        let behind = at - stretch.start;
+        if stretch.inverse == 0 {
+            return self.nodes[(stretch.nodes + behind) as usize];
         }
-        let (copy, place) = (behind / period, behind % period);
-        let [a, b, c] = self.strides[(strides + place) as usize];
-        shifted(self.nodes[(nodes + place) as usize], [a, b, c].map(|stride| stride.wrapping_mul(copy)))
+        let copy = ((u128::from(stretch.inverse) * u128::from(behind)) >> 64) as u32;
+        let copy = if stretch.period == 1 { behind } else { copy };
+        let place = behind - copy * stretch.period;
+        let [a, b, c] = self.strides[(stretch.strides + place) as usize];
+        shifted(
+            self.nodes[(stretch.nodes + place) as usize],
+            [a, b, c].map(|stride| stride.wrapping_mul(copy)),
+        )
     }
 }
 
