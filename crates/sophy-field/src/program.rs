@@ -223,9 +223,8 @@ impl Kernels {
     /// Kernels by program and then by orders − 1; `code` is what they live in.
     ///
     /// # Safety
-    /// A kernel lives as long as `code`. Run with the operands of any [`Call`] of its program, a copy that there is, and a
-    /// memory as long
-    /// as that of the [`Equations`](crate::Equations) they were made for, it reads and writes inside both only.
+    /// A kernel lives as long as `code`. Run with operands of a [`Call`] of its program, one of the copies, and memory
+    /// of the length in the [`Equations`](crate::Equations) it was made for, it stays inside both.
     #[allow(unsafe_code)]
     pub unsafe fn new(of: Vec<[Option<Kernel>; 4]>, code: Arc<dyn Any + Send + Sync>) -> Self {
         Kernels { of, _code: code }

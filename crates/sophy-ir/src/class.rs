@@ -1,6 +1,8 @@
 use crate::graph::{Graph, NodeId};
 use crate::model::Quantity;
+use crate::wires::Wires;
 use sophy_diagnostics::Span;
+use std::sync::Arc;
 
 /// A class of a [`crate::Model`], by its place in [`crate::Model::classes`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -356,7 +358,7 @@ pub struct Composite {
     /// In written order.
     pub members: Vec<Member>,
     /// What feeds inputs of members and outputs of the composite.
-    pub wires: Vec<Wire>,
+    pub wires: Wires,
     /// Emitted labels and who receives them.
     pub event_wires: Vec<EventWire>,
 }
@@ -392,7 +394,7 @@ pub struct Port {
 }
 
 /// `to` equals a source, or a weighted sum of sources (a row of a composition matrix, thesis A.3).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Wire {
     /// An input of a member, or an output of the composite.
     pub to: Port,
@@ -403,12 +405,12 @@ pub struct Wire {
 }
 
 /// What feeds a port.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Sources {
     /// One port, as it is.
     One(Port),
     /// Σ weight · port.
-    Sum(Vec<(f64, Port)>),
+    Sum(Arc<[(f64, Port)]>),
 }
 
 /// An event port of a member, or of the composite itself.

@@ -90,7 +90,7 @@ pub enum Node {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     /// The first nodes, when the graph was built for the time being, and those that have come since.
-    packed: Packed,
+    packed: Packed<Node>,
     nodes: Vec<Node>,
     /// Where to find a node: its position + 1 at the place of its hash or behind (open addressing), 0 where
     /// there is none. The length is a power of two.
@@ -109,7 +109,7 @@ impl Graph {
     fn at(&self, position: usize) -> Node {
         match position.checked_sub(self.packed.len()) {
             Some(behind) => self.nodes[behind],
-            None => self.packed.node(position),
+            None => self.packed.at(position),
         }
     }
 

@@ -27,6 +27,7 @@ mod packed;
 mod pieces;
 mod system;
 mod system_text;
+mod wires;
 mod written;
 
 pub use affine::Affine;
@@ -50,3 +51,4 @@ pub use system::{
     FlatLocation, FlatReset, FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Range, Ranged,
     Receiver, Role, Row, Stair, State, System, Truth, VerifyError, Watch,
 };
+pub use wires::Wires;

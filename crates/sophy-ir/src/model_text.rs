@@ -317,7 +317,7 @@ impl Text<'_> {
             let name = class.map_or("?", |class| class.variable_name(port.variable));
             format!("{}{name}", end(composite, port.member, port.copy))
         };
-        for wire in &composite.wires {
+        for wire in composite.wires.iter() {
             let from = match &wire.from {
                 Sources::One(one) => port(one),
                 Sources::Sum(terms) if terms.is_empty() => "0".to_owned(),

@@ -56,7 +56,7 @@ fn wire(from: Port, to: Port) -> Wire {
 }
 
 fn composite(name: &str, members: Vec<Member>, wires: Vec<Wire>) -> Class {
-    let body = Body::Composite(Composite { members, wires, event_wires: Vec::new() });
+    let body = Body::Composite(Composite { members, wires: wires.into(), event_wires: Vec::new() });
     Class { name: name.to_owned(), body, ..Class::default() }
 }
 
@@ -158,8 +158,8 @@ fn names_parameters_and_ports_through_two_composites() {
     body.wires.push(wire(port(Some(0), 0, 1), port(Some(0), 1, 0)));
     // The sum of two weighted outputs, and one of weight 1.
     let terms = vec![(2.0, port(Some(0), 2, 1)), (1.0, port(Some(0), 3, 1)), (-1.0, port(Some(0), 1, 1))];
-    body.wires.push(Wire { to: port(None, 0, 1), from: Sources::Sum(terms), span: None });
-    body.wires.push(Wire { to: port(Some(0), 2, 0), from: Sources::Sum(Vec::new()), span: None });
+    body.wires.push(Wire { to: port(None, 0, 1), from: Sources::Sum(terms.into()), span: None });
+    body.wires.push(Wire { to: port(Some(0), 2, 0), from: Sources::Sum([].into()), span: None });
 
     let mut whole = composite("Whole", vec![member("plant", 1, &[2])], Vec::new());
     let five = whole.graph.number(5.0);

@@ -59,12 +59,13 @@ fn classes_members_and_wires_are_shown_as_they_are_written() {
         span: None,
     };
     let port = |copy, variable| Port { member: Some(0), copy, variable: VariableId(variable) };
-    let sum = Sources::Sum(vec![(1.0, port(1, 1)), (-2.0, port(2, 1))]);
+    let sum = Sources::Sum([(1.0, port(1, 1)), (-2.0, port(2, 1))].into());
     let wires = vec![
         Wire { to: port(0, 0), from: Sources::One(port(3, 1)), span: None },
         Wire { to: port(1, 0), from: sum, span: None },
     ];
-    root.body = Body::Composite(Composite { members: vec![member], wires, event_wires: Vec::new() });
+    root.body =
+        Body::Composite(Composite { members: vec![member], wires: wires.into(), event_wires: Vec::new() });
     model.classes.push(root);
     model.root = ClassIndex(1);
     let expected = r#"model Whole

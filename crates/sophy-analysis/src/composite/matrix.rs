@@ -82,7 +82,7 @@ pub(crate) fn compose<'a>(
             // A row of zeros connects nothing.
             [] => continue,
             &[(1.0, port)] => Sources::One(port),
-            _ => Sources::Sum(sources),
+            _ => Sources::Sum(sources.into()),
         };
         add_wire(builder, Wire { to: row.end, from, span: Some(span) }, span, wiring);
     }

@@ -211,7 +211,7 @@ impl<'a> Flattener<'a> {
     }
 
     /// What feeds an input or an output of a composite, and the composite where that is written.
-    fn wire(&self, place: Place) -> Option<(u32, &'a Wire)> {
+    fn wire(&self, place: Place) -> Option<(u32, Wire)> {
         let wire = self.wires[self.position(place)]?;
         let composite = match self.tree.facts(place.instance).of(VariableId(place.slot)) {
             Becomes::Port => place.instance,
@@ -296,7 +296,7 @@ impl<'a> Flattener<'a> {
             Sources::One(port) => source(self, *port).unwrap_or_else(|| self.nothing()),
             Sources::Sum(terms) => {
                 let mut sum = None;
-                for &(weight, port) in terms {
+                for &(weight, port) in terms.iter() {
                     let term = source(self, port).unwrap_or_else(|| self.nothing());
                     let graph = &mut self.system.graph;
                     let term = as_number(graph, term);

@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 /// Members of one name are one box, the elements of a vector one port, parallel connections one arrow.
 pub(super) fn composition(model: &Model, class: &Class, composite: &Composite) -> Diagram {
     let mut drawing = Drawing::new(model, class, composite);
-    for wire in &composite.wires {
+    for wire in composite.wires.iter() {
         match &wire.from {
             Sources::One(from) => drawing.wire(from, &wire.to, 1.0),
             Sources::Sum(terms) => terms

@@ -73,7 +73,7 @@ fn bytes(method: Method) -> [isize; 2] {
 /// With the model, the system and the run; a copy stores nothing that its class knows.
 #[test]
 fn a_state_of_a_copy_costs_few_bytes() {
-    for (method, limits) in [(Method::Qss2, [200, 700]), (Method::Liqss2, [280, 700])] {
+    for (method, limits) in [(Method::Qss2, [190, 700]), (Method::Liqss2, [255, 700])] {
         let found = bytes(method);
         assert!(
             found[0] <= limits[0] && found[1] <= limits[1],
