@@ -81,7 +81,8 @@ pub fn analyse(
     let of_root = defaults.iter().find(|(component, _)| Some(*component) == root);
     let class = of_root.and_then(|(_, entry)| entry.class);
     let model = class.filter(|_| well_formed).map(|class| {
-        let (classes, root) = reachable(library.classes, class);
+        let (mut classes, root) = reachable(library.classes, class);
+        classes.iter_mut().for_each(|class| class.graph.shrink_to_fit());
         Model { classes, root, texts, tables: files.tables }
     });
     (model, diagnostics)

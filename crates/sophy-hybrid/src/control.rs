@@ -55,7 +55,11 @@ pub struct Control {
     changed: Vec<WatchIndex>,
     chosen: Vec<TransitionIndex>,
     emitted: Vec<EventIndex>,
+    /// Automata whose next event nothing listens to, and those that answer theirs, unless its condition keeps them.
+    unheard: Vec<AutomatonIndex>,
+    answers: Vec<(AutomatonIndex, Option<TransitionIndex>)>,
     changes: Changes,
+    assigned: Vec<(StateIndex, usize)>,
     /// Event sections that change sides without an event.
     sides: Changes,
     counts: Counts,
@@ -75,7 +79,10 @@ impl Control {
             changed: Vec::new(),
             chosen: Vec::new(),
             emitted: Vec::new(),
+            unheard: Vec::new(),
+            answers: Vec::new(),
             changes: Changes::default(),
+            assigned: Vec::new(),
             sides: Changes::default(),
             counts: Counts::default(),
             most_steps: 10_000,
@@ -266,8 +273,10 @@ impl Control {
     /// Group 2: every automaton takes one waiting event, those first whose answer has the smallest priority
     /// number; `false` if none waits. An event that nothing listens to is gone.
     fn choose_by_event(&mut self, engine: &dyn Engine, logic: &Logic) -> bool {
-        let queues = &self.queues;
-        let (mut least, mut answers, mut unheard) = (i32::MAX, Vec::new(), Vec::new());
+        let (queues, mut least) = (&self.queues, i32::MAX);
+        let (unheard, answers) = (&mut self.unheard, &mut self.answers);
+        unheard.clear();
+        answers.clear();
         self.waiting.retain(|automaton| {
             let Some(&event) = queues[automaton.position()].front() else { return false };
             let location = engine.locations()[automaton.position()];
@@ -283,7 +292,7 @@ impl Control {
             let holds = |(guard, copy): (&Guard, u32)| guard.holds(copy, |watch| engine.sign(watch));
             // One that only its condition keeps from answering has its turn, too.
             match listening.next() {
-                None => unheard.push((automaton, None)),
+                None => unheard.push(automaton),
                 Some((first, guard)) => {
                     let answer = if holds(guard) {
                         Some(first)
@@ -291,13 +300,14 @@ impl Control {
                         listening.find(|&(_, guard)| holds(guard)).map(|(transition, _)| transition)
                     };
                     let priority = logic.transition(answer.unwrap_or(first)).0.priority;
-                    keep_urgent(&mut answers, &mut least, priority, (automaton, answer));
+                    keep_urgent(answers, &mut least, priority, (automaton, answer));
                 }
             }
             true
         });
         let any = !(unheard.is_empty() && answers.is_empty());
-        for (automaton, answer) in unheard.into_iter().chain(answers) {
+        let unheard = unheard.iter().map(|&automaton| (automaton, None));
+        for (automaton, answer) in unheard.chain(answers.iter().copied()) {
             self.queues[automaton.position()].pop_front();
             match answer {
                 Some(transition) => self.chosen.push(transition),
@@ -329,11 +339,11 @@ impl Control {
 impl Control {
     /// All right-hand sides of a micro-step read the values before it, so what a state becomes must not depend on
     /// which of two assignments is looked at first. Equal values are no contradiction.
-    fn refuse_assigned_twice(&self, logic: &Logic, time: f64) -> Result<(), HybridError> {
-        let mut assigned: Vec<(StateIndex, usize)> =
-            self.changes.states.iter().enumerate().map(|(k, (state, _))| (*state, k)).collect();
-        assigned.sort_unstable();
-        for pair in assigned.windows(2) {
+    fn refuse_assigned_twice(&mut self, logic: &Logic, time: f64) -> Result<(), HybridError> {
+        self.assigned.clear();
+        self.assigned.extend(self.changes.states.iter().enumerate().map(|(k, (state, _))| (*state, k)));
+        self.assigned.sort_unstable();
+        for pair in self.assigned.windows(2) {
             let [(state, first), (again, second)] = [pair[0], pair[1]];
             let values = [self.changes.states[first].1, self.changes.states[second].1];
             if state == again && values[0].to_bits() != values[1].to_bits() {

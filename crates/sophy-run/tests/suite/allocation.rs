@@ -4,14 +4,15 @@ use crate::support::{METHODS, by, is_first_order, to};
 use allocation_counter::measure;
 use sophy_ir::Model;
 use sophy_run::{Backend, Experiment, Pause, Run};
-use sophy_testkit::problems::{Hopper, oscillator};
+use sophy_testkit::problems::{Hopper, oscillator, two_timers};
 use sophy_testkit::stiff::{AdvectionReaction, LcLine, Smooth, stiff_pair};
 use std::sync::Arc;
 
 #[test]
 fn no_event_allocates() {
-    let systems: [(&str, Model, f64, f64); 5] = [
+    let systems: [(&str, Model, f64, f64); 6] = [
         ("hopper", Hopper::TAU40.model(), 100.0, 1e-3),
+        ("events", two_timers(), 120.0, 1e-3),
         ("oscillator", oscillator(), 100.0, 1e-4),
         ("stiff pair", stiff_pair(), 500.0, 1e-3),
         ("LC line", LcLine(20).model(), 20.0, 1e-3),
@@ -30,7 +31,7 @@ fn no_event_allocates() {
                     // Whoever records takes them at each pause.
                     run.taken.clear();
                     assert_eq!(run.advance(until, u64::MAX).unwrap(), Pause::Reached);
-                    run.statistics().engine.steps
+                    run.statistics().engine.rates
                 };
                 let before = advance(0.6 * stop);
                 let mut after = before;
