@@ -292,7 +292,13 @@ impl Cubic {
         // All derivatives lead to the root.
         let (value, slope, curvature) = (self.at(from), self.slope_at(from), c2 + 3.0 * c3 * from);
         let near = from + rising_root([slope.abs(), curvature.abs(), c3.abs()], value.abs());
-        if PRECISION == NEAR { near } else { self.newton(near, from, f64::INFINITY) }
+        if PRECISION == NEAR {
+            return near;
+        }
+        // Twice as many digits and more, so that Newton's method begins where only rounding is left.
+        let step = self.halley_step(near);
+        let nearer = if step.is_finite() { near - step } else { near };
+        self.newton(nearer, from, f64::INFINITY)
     }
 
     /// The root between two places, from a start from which Newton's method converges from one side.
