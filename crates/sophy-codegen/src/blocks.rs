@@ -13,13 +13,24 @@ use std::ops::Range;
 /// share nothing with others.
 const MOST_ROWS: usize = 32;
 
-/// Gathers blocks, formulas and the lists they refer to. What a call computes is only asked for: in
-/// `Call::program` stands the request until [`Gather::place`].
+/// Gathers blocks, formulas and the lists they refer to. What computes them is only asked for.
 pub(crate) struct Gather<'a> {
     pub(crate) system: &'a System,
     pub(crate) memory: Memory,
     pub(crate) shapes: Shapes,
     pub(crate) incidence: Incidence<'a>,
+    found: Gathered,
+    /// Per algebraic variable: the entry of its blocks, and those of its calls, smooth and plain.
+    algebraics: [Vec<Option<Entry>>; 3],
+    /// Blocks of equal rows are one; by a hash of the rows.
+    known: FxHashMap<u64, Entry>,
+    /// Per leaf, by its number: the rates that read it, directly or through algebraic variables.
+    readers: Table<Selection>,
+}
+
+/// What was gathered.
+#[derive(Default)]
+pub(crate) struct Gathered {
     pub(crate) blocks: Vec<Rates>,
     /// Where the blocks of an entry begin: one per location of its owner.
     pub(crate) groups: Vec<u32>,
@@ -34,32 +45,7 @@ pub(crate) struct Gather<'a> {
     /// Entries of blocks, and entries of the calls that formulas need.
     pub(crate) entries: Vec<Entry>,
     pub(crate) before: Vec<Entry>,
-    /// Per algebraic variable: the entry of its blocks, and those of its calls, smooth and plain.
-    algebraics: [Vec<Option<Entry>>; 3],
-    /// Blocks of equal rows are one; by a hash of the rows.
-    known: FxHashMap<u64, Entry>,
     /// Per state and location: where its bend stands.
-    first_bend: Vec<u32>,
-    bends: Vec<bool>,
-    /// Per leaf, by its number: the rates that read it, directly or through algebraic variables.
-    readers: Table<Selection>,
-}
-
-/// What was gathered.
-pub(crate) struct Gathered {
-    pub(crate) blocks: Vec<Rates>,
-    pub(crate) groups: Vec<u32>,
-    pub(crate) calls: Vec<RequestIndex>,
-    /// Where the calls of an algebraic variable begin: one per location of its owner.
-    pub(crate) call_groups: Vec<u32>,
-    pub(crate) formulas: Vec<Wanted>,
-    /// Sources that blocks read, and sources that formulas read.
-    pub(crate) reads: Vec<SourceIndex>,
-    pub(crate) sources: Vec<SourceIndex>,
-    pub(crate) rows: Vec<Selection>,
-    /// Entries of blocks, and entries of the calls that formulas need.
-    pub(crate) entries: Vec<Entry>,
-    pub(crate) before: Vec<Entry>,
     first_bend: Vec<u32>,
     bends: Vec<bool>,
 }
@@ -148,20 +134,9 @@ impl<'a> Gather<'a> {
             system,
             memory: Memory::new(system, order),
             shapes: Shapes::default(),
-            blocks: Vec::new(),
-            groups: Vec::new(),
-            calls: Vec::new(),
-            call_groups: Vec::new(),
-            formulas: Vec::new(),
-            reads: Vec::new(),
-            sources: Vec::new(),
-            rows: Vec::new(),
-            entries: Vec::new(),
-            before: Vec::new(),
+            found: Gathered { first_bend, bends, ..Gathered::default() },
             algebraics: std::array::from_fn(|_| vec![None; system.algebraics.len()]),
             known: FxHashMap::default(),
-            first_bend,
-            bends,
             readers: Table::from_pairs(incidence.leaves(), &pairs),
             incidence,
         }
@@ -169,23 +144,7 @@ impl<'a> Gather<'a> {
 
     /// What becomes of it; all else is let go.
     pub(crate) fn finish(self) -> (Memory, Shapes, Gathered) {
-        let Gather { memory, shapes, blocks, groups, calls, call_groups, formulas, .. } = self;
-        let Gather { reads, sources, rows, entries, before, first_bend, bends, .. } = self;
-        let gathered = Gathered {
-            blocks,
-            groups,
-            calls,
-            call_groups,
-            formulas,
-            reads,
-            sources,
-            rows,
-            entries,
-            before,
-            first_bend,
-            bends,
-        };
-        (memory, shapes.finish(), gathered)
+        (self.memory, self.shapes.finish(), self.found)
     }
 
     /// The rates that read a leaf, directly or through algebraic variables.
@@ -234,9 +193,9 @@ impl<'a> Gather<'a> {
                 entries.extend(of_owner.chunk_by(|a, b| a.state == b.state).map(|one| self.block(one)));
             }
         }
-        let start = self.entries.len() as u32;
-        self.entries.extend(entries);
-        start..self.entries.len() as u32
+        let start = self.found.entries.len() as u32;
+        self.found.entries.extend(entries);
+        start..self.found.entries.len() as u32
     }
 
     /// The blocks, one per location in a row, of some rates of one automaton, ordered by location.
@@ -258,10 +217,10 @@ impl<'a> Gather<'a> {
             rest = others;
             let nodes: Vec<NodeId> = here.iter().map(|s| rate(self.system, *s)).collect();
             let request = self.request(Side::Quantised, &nodes, None);
-            let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.reads);
-            let start = self.rows.len() as u32;
-            self.rows.extend_from_slice(here);
-            self.blocks.push(Rates { request, reads, rows: start..self.rows.len() as u32 });
+            let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.found.reads);
+            let start = self.found.rows.len() as u32;
+            self.found.rows.extend_from_slice(here);
+            self.found.blocks.push(Rates { request, reads, rows: start..self.found.rows.len() as u32 });
         }
         self.known.insert(hash, entry);
         entry
@@ -269,8 +228,8 @@ impl<'a> Gather<'a> {
 
     /// The blocks of an entry begin here.
     fn group(&mut self, owner: AutomatonIndex) -> Entry {
-        let first = self.blocks.len() as u32;
-        self.groups.push(first);
+        let first = self.found.blocks.len() as u32;
+        self.found.groups.push(first);
         Entry { owner, first }
     }
 
@@ -278,8 +237,8 @@ impl<'a> Gather<'a> {
     fn holds(&self, entry: Entry, selected: &[Selection]) -> bool {
         let locations = self.system.automata[entry.owner.position()].kind.locations.len() as u32;
         let held = (0..locations).flat_map(|location| {
-            let block = &self.blocks[(entry.first + location) as usize];
-            let rows = &self.rows[block.rows.start as usize..block.rows.end as usize];
+            let block = &self.found.blocks[(entry.first + location) as usize];
+            let rows = &self.found.rows[block.rows.start as usize..block.rows.end as usize];
             rows.iter().map(move |row| (location, row.state))
         });
         held.eq(selected.iter().map(|s| (s.location, s.state)))
@@ -295,8 +254,8 @@ impl<'a> Gather<'a> {
         let entry = self.group(row.owner);
         for &node in self.system.nodes(row) {
             let request = self.request(Side::Quantised, &[node], Some(to));
-            let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.reads);
-            self.blocks.push(Rates { request, reads, rows: 0..0 });
+            let reads = sources(self.shapes.leaves(), self.memory.layout, &mut self.found.reads);
+            self.found.blocks.push(Rates { request, reads, rows: 0..0 });
         }
         self.algebraics[0][z] = Some(entry);
         entry
@@ -310,11 +269,11 @@ impl<'a> Gather<'a> {
         let algebraic = &self.system.algebraics[z];
         let row = if plain { algebraic.plain } else { algebraic.value };
         let to = self.memory.algebraic(Side::Series, z);
-        let entry = Entry { owner: row.owner, first: self.calls.len() as u32 };
-        self.call_groups.push(entry.first);
+        let entry = Entry { owner: row.owner, first: self.found.calls.len() as u32 };
+        self.found.call_groups.push(entry.first);
         for &node in self.system.nodes(row) {
             let request = self.request(Side::Series, &[node], Some(to));
-            self.calls.push(request);
+            self.found.calls.push(request);
         }
         self.algebraics[1 + usize::from(plain)][z] = Some(entry);
         entry
@@ -324,12 +283,12 @@ impl<'a> Gather<'a> {
     pub(crate) fn formula(&mut self, node: NodeId, plain: bool) -> Wanted {
         let request = self.request(Side::Series, &[node], None);
         let leaves = self.incidence.closure_of(self.shapes.leaves(), plain);
-        let sources = sources(leaves, self.memory.layout, &mut self.sources);
+        let sources = sources(leaves, self.memory.layout, &mut self.found.sources);
         let needed = algebraics(leaves);
         let before: Vec<Entry> = needed.into_iter().map(|z| self.algebraic_calls(z, plain)).collect();
-        let start = self.before.len() as u32;
-        self.before.extend(before);
-        Wanted { request, sources, before: start..self.before.len() as u32 }
+        let start = self.found.before.len() as u32;
+        self.found.before.extend(before);
+        Wanted { request, sources, before: start..self.found.before.len() as u32 }
     }
 
     /// Whether a watch compares time itself with what does not change between events.
@@ -343,10 +302,10 @@ impl<'a> Gather<'a> {
 
     /// A formula per location, in a row.
     pub(crate) fn selected(&mut self, row: Row, plain: bool) -> Entry {
-        let entry = Entry { owner: row.owner, first: self.formulas.len() as u32 };
+        let entry = Entry { owner: row.owner, first: self.found.formulas.len() as u32 };
         for &node in self.system.nodes(row) {
             let formula = self.formula(node, plain);
-            self.formulas.push(formula);
+            self.found.formulas.push(formula);
         }
         entry
     }
