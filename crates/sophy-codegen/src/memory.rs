@@ -14,6 +14,15 @@ pub(crate) enum Place {
     Trajectory(u32, u32),
 }
 
+/// Where something stands that was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Operand {
+    /// A jet at this offset.
+    Jet(u32),
+    /// A scalar at this offset.
+    Scalar(u32),
+}
+
 impl Place {
     /// Where it begins.
     pub(crate) fn offset(self) -> u32 {

@@ -4,11 +4,12 @@
 use crate::automata::{Selects, read_automaton};
 use crate::blocks::{Entry, Gathered, Rates, Wanted};
 use crate::logic::{Leads, read_transition};
+use crate::memory::Operand;
 use crate::repeats::{Draft, Reading, Repeats};
 use crate::shapes::{Answer, Emitter, Programs, RequestIndex};
 use crate::watches::{Watched, read_watch};
 use sophy_field::{
-    Affine, AutomatonCode, Block, Call, Equations, Evaluation, Formula, Influence, Operand, RowResult, Site,
+    Affine, AutomatonCode, Block, Call, Equations, Evaluation, Formula, Influence, RowResult, Site,
     TransitionCode, Turn, WatchCode,
 };
 use sophy_ir::System;

@@ -1,7 +1,7 @@
 //! One expression (or several that share subexpressions) → one program.
 
-use crate::memory::{Memory, Place, Side};
-use sophy_field::{Code, Instruction, Operand, Program};
+use crate::memory::{Memory, Operand, Place, Side};
+use sophy_field::{Code, Instruction, Program};
 use sophy_ir::{Binary, Comparison, Node, NodeId, System, Unary};
 
 /// How deep switches may nest: each level is one of recursion.

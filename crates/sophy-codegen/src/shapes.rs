@@ -1,10 +1,10 @@
 //! Equal equations are compiled once: what is to be computed is first written down by its *shape*, and becomes
 //! programs only when it is known how often each shape occurs.
 
-use crate::memory::{Memory, Place, Side};
+use crate::memory::{Memory, Operand, Place, Side};
 use crate::programs::Compiler;
 use rustc_hash::FxHashMap;
-use sophy_field::{Operand, Program};
+use sophy_field::Program;
 use sophy_ir::{Leaf, Node, NodeId, System};
 use std::ops::Range;
 

@@ -33,7 +33,5 @@ pub use journal::{Journal, Record};
 pub use layout::{Layout, NOW, RecordLayout};
 pub use logic::{EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
 pub use memory::Memory;
-pub use program::{
-    Call, Code, Enclose, Enclosing, Instruction, Jet, Kernel, Kernels, Operand, Program, Reads, Run,
-};
+pub use program::{Call, Code, Enclose, Enclosing, Instruction, Jet, Kernel, Kernels, Program, Reads, Run};
 pub use table::Table;

@@ -247,12 +247,3 @@ impl fmt::Debug for Kernels {
         write!(f, "Kernels({})", self.count())
     }
 }
-
-/// Where the result of a formula stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operand {
-    /// A jet at this offset.
-    Jet(u32),
-    /// A scalar at this offset.
-    Scalar(u32),
-}
