@@ -8,7 +8,9 @@ mod bracket;
 mod cubic;
 mod enclosed;
 mod parabola;
+mod reach;
 
-pub use cubic::{cube_root, cubic_crossing, cubic_leaves, rising_root};
+pub use cubic::{cubic_crossing, cubic_leaves};
 pub use enclosed::{Search, Start, first_crossing};
 pub use parabola::parabola_crossing;
+pub use reach::{cube_reach, cube_root, rising_root};

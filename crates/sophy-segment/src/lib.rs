@@ -22,7 +22,8 @@ mod segment;
 mod sign;
 
 pub use crossing::{
-    Search, Start, cube_root, cubic_crossing, cubic_leaves, first_crossing, parabola_crossing, rising_root,
+    Search, Start, cube_reach, cube_root, cubic_crossing, cubic_leaves, first_crossing, parabola_crossing,
+    rising_root,
 };
 pub use instant::Instant;
 pub use interval::Interval;

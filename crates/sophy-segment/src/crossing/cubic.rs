@@ -5,6 +5,7 @@
 //! have one sign, or at the point of inflection between two turns, where the cubic is steepest.
 
 use super::parabola::{finite, first_fall as parabola_first_fall, parabola_crossing, scaled};
+use super::reach::{ENOUGH, first_reach, rising_root};
 use crate::Sign;
 use crate::exact::{two_product, two_sum};
 
@@ -38,16 +39,43 @@ pub fn cubic_crossing(c: [f64; 4], sign: Sign) -> Option<f64> {
 
 /// Delay until `|d₀ + d₁ s + d₂ s² + d₃ s³|`, s >= 0, first reaches `band`; infinite if never, 0 if it is there already.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn cubic_leaves(d: [f64; 4], band: f64) -> f64 {
+    // In most cases it leaves the band where d₃ leads at last.
+    match leaves_above(mirrored(d, d[3]), band) {
+        Some(s) => s,
+        None => leaves_elsewhere(d, band),
+    }
+}
+
+/// That delay, if the upper edge is plainly the first that it reaches.
+#[inline(always)]
+fn leaves_above([d0, d1, d2, d3]: [f64; 4], band: f64) -> Option<f64> {
+    let s = first_reach([d1, d2, d3], band - d0)?;
+    // What leads down would not have been enough for the lower edge, even alone and all the way.
+    let falling = |d: f64| if d < 0.0 { d } else { 0.0 };
+    let fall = s * (falling(d1) + s * (falling(d2) + s * falling(d3)));
+    if band + d0 + fall > 0.0 { Some(s) } else { None }
+}
+
+#[inline(always)]
+fn mirrored(d: [f64; 4], side: f64) -> [f64; 4] {
+    let side = 1.0_f64.copysign(side);
+    d.map(|d| side * d)
+}
+
+/// That delay, at the other edge or by a search.
+#[cold]
+fn leaves_elsewhere(d: [f64; 4], band: f64) -> f64 {
+    leaves_above(mirrored(d, -d[3]), band).unwrap_or_else(|| leaves_by_pieces(d, band))
+}
+
+/// That delay, whatever the cubic does.
+fn leaves_by_pieces(d: [f64; 4], band: f64) -> f64 {
     let [d0, d1, d2, d3] = d;
     let is_inside = d0.abs() < band;
     if !is_inside {
         return 0.0;
-    }
-    if d0 == 0.0 && d1 == 0.0 && d2 == 0.0 {
-        // As after every step of a state: q has taken value, slope and curvature of x.
-        return if d3 == 0.0 { f64::INFINITY } else { cube_root(band / d3.abs()) };
     }
     if d3 != 0.0 && d1 * d3 >= 0.0 && d2 * d3 >= 0.0 {
         // It moves in one direction only.
@@ -71,68 +99,6 @@ pub fn cubic_leaves(d: [f64; 4], band: f64) -> f64 {
     let edge = if rises { band } else { -band };
     Cubic([d0 - edge, d1, d2, d3]).root_behind::<NEAR>(from)
 }
-
-/// The s > 0 at which `c₁ s + c₂ s² + c₃ s³` reaches `value`, to 6 digits.
-///
-/// - `c`: c₁, c₂ and c₃, not negative and not all 0
-/// - `value`: positive
-#[must_use]
-#[inline]
-pub fn rising_root([c1, c2, c3]: [f64; 3], value: f64) -> f64 {
-    // Not before the root, and by less than half of it behind: where any one term alone would reach the value.
-    let mut s = 1.0001 * near_cube_root(value / c3);
-    for alone in [1.0001 * (value / c2).sqrt(), value / c1] {
-        s = if alone < s { alone } else { s };
-    }
-    // From there Halley's method comes down.
-    for _ in 0..MOST_STEPS {
-        let step = Cubic([-value, c1, c2, c3]).halley_step(s);
-        s -= step;
-        let is_near = step.abs() <= ENOUGH * s;
-        if is_near || step.is_nan() {
-            break;
-        }
-    }
-    s
-}
-
-/// Halley's method has three digits for each that it had before: after so small a step, relative to s, 6 of them. A band
-/// is a matter of taste: one that is left a millionth later is as good.
-const ENOUGH: f64 = 1e-2;
-
-/// ∛x of a positive number to a few ulp, by multiplications and divisions only.
-#[must_use]
-#[inline]
-pub fn cube_root(x: f64) -> f64 {
-    // Beyond the normal numbers the first guess is none.
-    if !(f64::MIN_POSITIVE..=f64::MAX / 8.0).contains(&x) {
-        return libm::cbrt(x);
-    }
-    let near = near_cube_root(x);
-    // 1/∛r for r near 1 to 23 bits, as FreeBSD's `cbrt` has it; then Halley's method once.
-    let r = near * near * (near / x);
-    let [p0, p1, p2, p3, p4] = INVERSE_CUBE_ROOT;
-    let root = near * ((p0 + r * (p1 + r * p2)) + (r * r * r) * (p3 + r * p4));
-    let cube = root * root * root;
-    root * ((cube + 2.0 * x) / (2.0 * cube + x))
-}
-
-/// ∛x to 4 %, a third of the exponent and of the fraction with it (W. Kahan).
-#[inline]
-fn near_cube_root(x: f64) -> f64 {
-    f64::from_bits(x.to_bits() / 3 + CUBE_ROOT_OF_ONE)
-}
-
-const INVERSE_CUBE_ROOT: [f64; 5] = [
-    1.875_951_824_271_77,
-    -1.884_979_795_433_771_7,
-    1.621_429_720_105_354_5,
-    -0.758_397_934_778_766,
-    0.145_996_192_886_612_45,
-];
-
-/// Two thirds of the bits of 1, less what makes the error smallest.
-const CUBE_ROOT_OF_ONE: u64 = 0x2A9F_7893_0000_0000;
 
 /// The s > 0 at which a cubic (c₃ ≠ 0) that is positive just right of 0 turns negative.
 fn first_fall(p: [f64; 4]) -> Option<f64> {
@@ -354,3 +320,42 @@ const TOUCHING: f64 = 1.0 / (1_u128 << 100) as f64;
 const MOST_STEPS: u32 = 64;
 /// Halley's method takes two or three; where it does not, Newton's is surer.
 const MOST_NEAR_STEPS: u32 = 8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn of_any_size() -> impl Strategy<Value = f64> {
+        prop_oneof![6 => (-2.0f64..2.0, -12i32..12).prop_map(|(c, e)| libm::scalbn(c, e)), 1 => Just(0.0)]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 50_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// What is found without a search is what the search finds, at any scale of value and time.
+        #[test]
+        fn the_quick_way_out_of_a_band(
+            d0 in prop_oneof![
+                4 => -1.0f64..1.0,
+                1 => Just(0.0),
+                1 => (0i32..50).prop_map(|e| 1.0 - libm::scalbn(1.0, -e)),
+            ],
+            d1 in of_any_size(), d2 in of_any_size(), d3 in of_any_size(),
+            time in -40i32..40, value in -60i32..60,
+        ) {
+            let d: [f64; 4] = std::array::from_fn(|k| libm::scalbn([d0, d1, d2, d3][k], value + time * k as i32));
+            let band = libm::scalbn(1.0, value);
+            let (found, searched) = (cubic_leaves(d, band), leaves_by_pieces(d, band));
+            let is_near = found == searched || (found / searched - 1.0).abs() < 3e-6;
+            // Beside a turn at the edge both are right, if nothing is beyond it between them.
+            let (from, to) = if found < searched { (found, searched) } else { (searched, found) };
+            let is_inside = |s: f64| {
+                let size = Cubic(d.map(f64::abs)).at(s);
+                Cubic(d).at(s).abs() - band < 1e-5 * size
+            };
+            let touches = || (0..=200).all(|k| is_inside(from + (to - from) * f64::from(k) / 200.0));
+            prop_assert!(is_near || touches(), "{d:?} {band:e}: {found:e} {searched:e}");
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! A record of memory as this engine keeps it: x, its start, q, its start, and the quantum.
 
 use sophy_field::{Jet, RecordLayout};
-use sophy_segment::{cube_root, cubic_leaves};
+use sophy_segment::{cube_reach, cubic_leaves};
 
 /// What stands where in the records of an order.
 pub(super) struct Place<const ORDER: usize>;
@@ -160,7 +160,7 @@ pub(super) fn leaves_from_middle<const ORDER: usize>([_, x1, x2, x3]: Jet, quant
     match ORDER {
         1 => quantum / x1.abs(),
         2 => 2.0 * quantum / (4.0 * x2.abs() * quantum).sqrt(),
-        _ => cube_root(quantum / x3.abs()),
+        _ => cube_reach(x3, quantum),
     }
 }
 
