@@ -71,7 +71,7 @@ impl Owned {
         }
         // The first location with the same: other copies count the same.
         let first = |s: &StateIndex| {
-            let rate = system.states[s.position()].rate;
+            let rate = system.states.at(s.position()).rate;
             let here = system.at(rate, LocationIndex::new(location));
             system.nodes(rate).iter().position(|&node| node == here).unwrap_or(location) as u32
         };
@@ -86,13 +86,14 @@ impl Owned {
         location: usize,
     ) -> Vec<sophy_field::WatchIndex> {
         let (system, location) = (gather.system, LocationIndex::new(location));
-        let states = self.states.row(automaton).iter().map(|s| system.states[s.position()].rate);
+        let states = self.states.row(automaton).iter().map(|s| system.states.at(s.position()).rate);
         let algebraics = self.algebraics.row(automaton).iter();
-        let algebraics = algebraics.map(|z| system.algebraics[z.position()].value);
+        let algebraics = algebraics.map(|z| system.algebraics.at(z.position()).value);
         let guarded = self.guarded.row(automaton).iter().map(|&row| system.guarded[row as usize]);
         let rows = states.chain(algebraics).chain(guarded).map(|row| system.at(row, location));
-        let outgoing = system.automata[automaton].outgoing(location);
-        let guards = outgoing.filter_map(|t| system.transitions[t.position()].trigger.guard());
+        let automaton = system.automata.at(automaton);
+        let outgoing = automaton.outgoing(location);
+        let guards = outgoing.filter_map(|t| system.transitions.at(t.position()).trigger.guard());
         gather.incidence.watches_below(rows.chain(guards))
     }
 }
@@ -136,5 +137,5 @@ pub(crate) fn read_automaton(reading: &mut Reading<'_>) -> AutomatonCode {
 
 /// Whether an automaton can change its location.
 fn changes(system: &System, automaton: usize) -> bool {
-    system.automata[automaton].kind.locations.iter().any(|location| !location.transitions.is_empty())
+    system.automata.at(automaton).kind.locations.iter().any(|location| !location.transitions.is_empty())
 }

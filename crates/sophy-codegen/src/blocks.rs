@@ -120,7 +120,7 @@ impl<'a> Gather<'a> {
             first_bend.push(bends.len() as u32);
             for (location, &node) in (0..).zip(system.nodes(state.rate)) {
                 let state = StateIndex::new(position);
-                let selection = Selection { owner: system.states[position].rate.owner, location, state };
+                let selection = Selection { owner: system.states.at(position).rate.owner, location, state };
                 let mut driven = false;
                 incidence.closure([node]);
                 for &leaf in incidence.found() {
@@ -167,7 +167,7 @@ impl<'a> Gather<'a> {
     fn rates_of(&self, states: impl IntoIterator<Item = StateIndex>) -> Vec<Selection> {
         let mut selected = Vec::new();
         for state in states {
-            let row = self.system.states[state.position()].rate;
+            let row = self.system.states.at(state.position()).rate;
             selected.extend((0..row.locations).map(|location| Selection {
                 owner: row.owner,
                 location,
@@ -212,7 +212,7 @@ impl<'a> Gather<'a> {
         }
         let entry = self.group(owner);
         let mut rest = selected;
-        for location in 0..self.system.automata[owner.position()].kind.locations.len() as u32 {
+        for location in 0..self.system.automata.at(owner.position()).kind.locations.len() as u32 {
             let (here, others) = rest.split_at(rest.partition_point(|s| s.location == location));
             rest = others;
             let nodes: Vec<NodeId> = here.iter().map(|s| rate(self.system, *s)).collect();
@@ -235,7 +235,7 @@ impl<'a> Gather<'a> {
 
     /// Whether the blocks of an entry hold exactly these rates.
     fn holds(&self, entry: Entry, selected: &[Selection]) -> bool {
-        let locations = self.system.automata[entry.owner.position()].kind.locations.len() as u32;
+        let locations = self.system.automata.at(entry.owner.position()).kind.locations.len() as u32;
         let held = (0..locations).flat_map(|location| {
             let block = &self.found.blocks[(entry.first + location) as usize];
             let rows = &self.found.rows[block.rows.start as usize..block.rows.end as usize];
@@ -249,7 +249,7 @@ impl<'a> Gather<'a> {
         if let Some(known) = self.algebraics[0][z] {
             return known;
         }
-        let row = self.system.algebraics[z].value;
+        let row = self.system.algebraics.at(z).value;
         let to = self.memory.algebraic(Side::Quantised, z);
         let entry = self.group(row.owner);
         for &node in self.system.nodes(row) {
@@ -266,7 +266,7 @@ impl<'a> Gather<'a> {
         if let Some(known) = self.algebraics[1 + usize::from(plain)][z] {
             return known;
         }
-        let algebraic = &self.system.algebraics[z];
+        let algebraic = self.system.algebraics.at(z);
         let row = if plain { algebraic.plain } else { algebraic.value };
         let to = self.memory.algebraic(Side::Series, z);
         let entry = Entry { owner: row.owner, first: self.found.calls.len() as u32 };
@@ -316,5 +316,5 @@ impl<'a> Gather<'a> {
 }
 
 fn rate(system: &System, selection: Selection) -> NodeId {
-    system.at(system.states[selection.state.position()].rate, LocationIndex(selection.location))
+    system.at(system.states.at(selection.state.position()).rate, LocationIndex(selection.location))
 }

@@ -29,7 +29,7 @@ impl<'a> Incidence<'a> {
             found: Vec::new(),
         };
         incidence.seen = vec![0; incidence.leaves()];
-        for algebraic in &system.algebraics {
+        for algebraic in system.algebraics.iter() {
             incidence.begin();
             incidence.direct(system.nodes(algebraic.value).iter().copied());
             incidence.smooth.push(incidence.found.iter().copied());
@@ -161,7 +161,7 @@ impl<'a> Incidence<'a> {
             self.through(leaf, false);
             for watch in self.deciders(leaf).into_iter().flatten() {
                 watches.push(watch);
-                self.direct([self.system.watches[watch.position()].difference]);
+                self.direct([self.system.watches.at(watch.position()).difference]);
             }
         }
         watches.sort_unstable();
@@ -172,7 +172,7 @@ impl<'a> Incidence<'a> {
     /// The watches that decide a truth or stair.
     pub(crate) fn deciders(&self, leaf: Leaf) -> [Option<WatchIndex>; 2] {
         match leaf {
-            Leaf::Truth(i) => [Some(self.system.truths[i.position()].watch), None],
+            Leaf::Truth(i) => [Some(self.system.truths.at(i.position()).watch), None],
             Leaf::Stair(i) => {
                 let stair = &self.system.stairs[i.position()];
                 [Some(stair.lower), Some(stair.upper)]

@@ -133,7 +133,7 @@ pub(crate) fn compile(
         ..Logic::default()
     };
     let mut locations = 0;
-    for automaton in &system.automata {
+    for automaton in system.automata.iter() {
         logic.first_location.push(locations);
         let count = automaton.kind.locations.len();
         locations += count as u32;
@@ -143,17 +143,17 @@ pub(crate) fn compile(
     logic.first_location.shrink_to_fit();
     let mut readers: Vec<(u32, AutomatonIndex)> = Vec::new();
     let mut transitions = Vec::with_capacity(system.transitions.len());
-    for transition in &system.transitions {
+    for transition in system.transitions.iter() {
         let mut guard = Guard::default();
         match transition.trigger.guard() {
             Some(node) => guard_steps(gather, evaluator, node, parameters, &mut guard.steps),
             None => guard.steps.push(GuardStep::Constant(true)),
         }
         if guard.steps.len() >= MOST_STEPS {
-            return Err(CompileError::GuardTooLong { transition: transition.name.clone() });
+            return Err(CompileError::GuardTooLong { transition: transition.name.to_string() });
         }
         if guard.depth() > 64 {
-            return Err(CompileError::GuardTooDeep { transition: transition.name.clone() });
+            return Err(CompileError::GuardTooDeep { transition: transition.name.to_string() });
         }
         readers.extend(guard.steps.iter().filter_map(|step| match step {
             GuardStep::Sign(watch, _) => Some((watch.first, transition.automaton)),
@@ -221,7 +221,7 @@ fn guard_steps(
         // Tasks are taken from the end.
         match system.graph.node(node) {
             Node::Leaf(Leaf::Truth(i)) => {
-                let truth = system.truths[i.position()];
+                let truth = system.truths.at(i.position());
                 steps.push(GuardStep::Sign(Affine::fixed(truth.watch.0), signs_of(truth.comparison)));
             }
             Node::Not(a) => tasks.extend([Task::Write(GuardStep::Not), Task::Visit(a)]),

@@ -14,7 +14,6 @@ use sophy_field::{
 };
 use sophy_ir::System;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// What stands in a row, one per location: blocks, calls or formulas.
 #[derive(Debug, Default)]
@@ -287,7 +286,8 @@ fn read_place(reading: &mut Reading<'_>) -> (bool, Affine) {
 
 /// Of what declaration a source is the copy; of those that are no states, nothing.
 fn declaration(system: &System, source: usize) -> [u32; 2] {
-    let address = system.states.get(source).map_or(0, |state| Arc::as_ptr(&state.declared).addr());
+    let is_state = source < system.states.len();
+    let address = if is_state { system.states.pattern(source).declared.address() } else { 0 };
     [address as u32, (address >> 32) as u32]
 }
 

@@ -93,7 +93,7 @@ impl Watching {
             for &leaf in gather.incidence.found() {
                 sources.extend(source_of(leaf, layout).map(|source| (source.0, reader)));
                 if let Leaf::Algebraic(z) = leaf {
-                    automata.push((system.algebraics[z.position()].value.owner.0, reader));
+                    automata.push((system.algebraics.at(z.position()).value.owner.0, reader));
                 }
                 let deciders = gather.incidence.deciders(leaf).into_iter().flatten();
                 dependents.extend(deciders.map(|decider| (decider.0, reader)));
@@ -138,10 +138,10 @@ impl Watching {
 
     fn one(&self, gather: &mut Gather<'_>, index: WatchIndex) -> Watched {
         let system = gather.system;
-        let watch = &system.watches[index.position()];
+        let watch = system.watches.at(index.position());
         let decided = self.decided.row(index.position());
         let truths = decided.iter().filter_map(|leaf| match leaf {
-            Leaf::Truth(i) => Some((i.0, signs_of(system.truths[i.position()].comparison))),
+            Leaf::Truth(i) => Some((i.0, signs_of(system.truths.at(i.position()).comparison))),
             _ => None,
         });
         let stair = decided.iter().find_map(|leaf| match leaf {
@@ -154,7 +154,7 @@ impl Watching {
             dependents: self.dependents.row(index.position()).into(),
             guard: self.guards[index.position()],
             affine: watch.affine,
-            clock: gather.is_clock(watch),
+            clock: gather.is_clock(&watch),
             formula: gather.formula(watch.difference, false),
             level: level(gather, watch.difference),
             left: gather.formula(watch.left, false),

@@ -1,6 +1,6 @@
 use crate::graph::{Graph, NodeId};
 use crate::model::Quantity;
-use crate::wires::Wires;
+use crate::repeated::Repeated;
 use sophy_diagnostics::Span;
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ pub struct Class {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EventPort {
     /// The label.
-    pub name: String,
+    pub name: Arc<str>,
     /// What it means.
     pub documentation: String,
     /// Where it is declared.
@@ -207,7 +207,7 @@ pub struct Assignment {
 #[derive(Clone, Debug)]
 pub struct Emission {
     /// The label.
-    pub label: String,
+    pub label: Arc<str>,
     /// Only if this holds.
     pub when: Option<NodeId>,
 }
@@ -260,7 +260,7 @@ pub enum Trigger {
 #[derive(Clone, Debug)]
 pub struct Transition {
     /// Name as written.
-    pub name: String,
+    pub name: Arc<str>,
     /// What it is, in the author's words.
     pub documentation: String,
     /// Where it stands.
@@ -358,9 +358,9 @@ pub struct Composite {
     /// In written order.
     pub members: Vec<Member>,
     /// What feeds inputs of members and outputs of the composite.
-    pub wires: Wires,
+    pub wires: Repeated<Wire>,
     /// Emitted labels and who receives them.
-    pub event_wires: Vec<EventWire>,
+    pub event_wires: Repeated<EventWire>,
 }
 
 /// A member, or all copies of an array of members.
@@ -421,11 +421,11 @@ pub struct EventEnd {
     /// Which copy, from 0, row by row.
     pub copy: u32,
     /// The label.
-    pub label: String,
+    pub label: Arc<str>,
 }
 
 /// An emitted label is received; labels of synchronised transitions are joined.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct EventWire {
     /// Emitting side.
     pub from: EventEnd,

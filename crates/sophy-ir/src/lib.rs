@@ -25,9 +25,10 @@ mod model_text;
 mod names;
 mod packed;
 mod pieces;
+mod renumbered;
+mod repeated;
 mod system;
 mod system_text;
-mod wires;
 mod written;
 
 pub use affine::Affine;
@@ -46,9 +47,9 @@ pub use linearity::Linearity;
 pub use model::{Interpolation, Model, Quantity, Table};
 pub use names::{ComponentIndex, Components, Members};
 pub use pieces::Pieces;
+pub use repeated::{Repeated, Shared};
 pub use system::{
     Algebraic, Automaton, AutomatonKind, Awaited, Declared, Event, EventInput, Feature, FlatEmission,
     FlatLocation, FlatReset, FlatTransition, FlatTrigger, Input, Origin, Output, Parameter, Range, Ranged,
     Receiver, Role, Row, Stair, State, System, Truth, VerifyError, Watch,
 };
-pub use wires::Wires;

@@ -328,7 +328,7 @@ impl Text<'_> {
             };
             writeln!(f, "  {from} -> {}", port(&wire.to))?;
         }
-        for wire in &composite.event_wires {
+        for wire in composite.event_wires.iter() {
             let name = |e: &crate::EventEnd| format!("{}{}", end(composite, e.member, e.copy), e.label);
             let kind = if wire.synchronised { "sync" } else { "event" };
             writeln!(f, "  {kind} {} -> {}", name(&wire.from), name(&wire.to))?;

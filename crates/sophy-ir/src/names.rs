@@ -1,7 +1,7 @@
 //! Names are computed: a copy stores neither its name nor what was declared for all copies.
 
 use crate::model_text::copy_name;
-use crate::system::{Algebraic, Automaton, Declared, Input, Output, State, System};
+use crate::system::{Algebraic, Automaton, Event, Input, Output, State, System};
 use crate::{Composite, Member};
 use std::sync::Arc;
 
@@ -88,9 +88,9 @@ impl Components {
     }
 
     /// `a.b[2].x`, or the name alone in the whole.
-    pub fn full_name(&self, component: ComponentIndex, declared: &Declared) -> String {
+    pub fn full_name(&self, component: ComponentIndex, name: &str) -> String {
         let component = self.name(component);
-        if component.is_empty() { declared.name.clone() } else { format!("{component}.{}", declared.name) }
+        if component.is_empty() { name.to_owned() } else { format!("{component}.{name}") }
     }
 }
 
@@ -105,28 +105,35 @@ impl Held {
 impl State {
     /// Full name.
     pub fn name(&self, system: &System) -> String {
-        system.components.full_name(self.component, &self.declared)
+        system.components.full_name(self.component, &self.declared.name)
     }
 }
 
 impl Input {
     /// Full name.
     pub fn name(&self, system: &System) -> String {
-        system.components.full_name(self.component, &self.declared)
+        system.components.full_name(self.component, &self.declared.name)
     }
 }
 
 impl Algebraic {
     /// Full name.
     pub fn name(&self, system: &System) -> String {
-        system.components.full_name(self.component, &self.declared)
+        system.components.full_name(self.component, &self.declared.name)
     }
 }
 
 impl Output {
     /// Full name.
     pub fn name(&self, system: &System) -> String {
-        system.components.full_name(self.component, &self.declared)
+        system.components.full_name(self.component, &self.declared.name)
+    }
+}
+
+impl Event {
+    /// `component.label`, or the label alone.
+    pub fn name(&self, system: &System) -> String {
+        system.components.full_name(self.component, &self.label)
     }
 }
 

@@ -1,26 +1,17 @@
-//! What copies of a component repeat stands once: nodes of a graph, connections. Where a stretch of items repeats the one
-//! before it up to numbers that go up by the same from copy to copy, it is computed.
+//! What copies of a component repeat stands once: nodes of a graph, connections, states, transitions. Where a stretch of
+//! items repeats the one before it up to numbers that go up by the same from copy to copy, it is computed.
 
-use crate::graph::{Leaf, Node, NodeId};
 use rustc_hash::{FxHashMap, FxHasher};
-use sophy_field::{AlgebraicIndex, InputIndex, ParameterIndex, StairIndex, StateIndex, TruthIndex};
-use std::hash::{Hash, Hasher};
+use std::hash::Hasher;
+use std::iter;
 
 /// What may repeat.
-pub(crate) trait Repeat: Clone + PartialEq {
-    /// The numbers that go up from copy to copy.
-    fn numbers(&self) -> Numbers;
+pub trait Repeat: Clone + PartialEq {
+    /// The same with each of its numbers replaced: those that go up from copy to copy, always in the same order.
+    fn renumbered(&self, number: impl FnMut(u32) -> u32) -> Self;
 
-    /// The same with numbers that are so much larger, modulo 2³².
-    fn shifted(&self, by: Numbers) -> Self;
-
-    /// What tells it from others, whatever its numbers.
+    /// What tells it from most others, whatever its numbers.
     fn look(&self, hasher: &mut FxHasher);
-
-    /// The same with numbers that are 0.
-    fn form(&self) -> Self {
-        self.shifted(self.numbers().map(u32::wrapping_neg))
-    }
 }
 
 /// A sequence of items that does not change any more.
@@ -29,7 +20,7 @@ pub(crate) struct Packed<T> {
     stretches: Vec<Stretch>,
     items: Vec<T>,
     /// By how much the numbers of items go up from copy to copy; only of stretches that repeat.
-    strides: Vec<Numbers>,
+    strides: Vec<u32>,
     /// For each so many positions: the stretch that holds the first of them.
     index: Vec<u32>,
     length: u32,
@@ -50,14 +41,13 @@ struct Stretch {
     items: u32,
     /// Where their strides begin.
     strides: u32,
+    /// How many strides an item has.
+    width: u32,
     /// How many items a copy has.
     period: u32,
     /// 2⁶⁴/period, rounded up: what is multiplied by it is divided by the period. 0 if nothing repeats.
     inverse: u64,
 }
-
-/// Numbers of an item: of a node what it refers to, operands or the index of a leaf.
-pub(crate) type Numbers = [u32; 3];
 
 /// Positions per entry of the index, as a power of two.
 const INDEXED: u32 = 7;
@@ -102,7 +92,7 @@ impl<T: Repeat> Packed<T> {
     /// Items that stand as they are.
     fn stand(&mut self, items: &[T], start: usize) {
         if !items.is_empty() {
-            self.stretch(start, items.len(), 0);
+            self.stretch(start, items.len(), 0, 0);
             self.items.extend_from_slice(items);
         }
     }
@@ -110,17 +100,22 @@ impl<T: Repeat> Packed<T> {
     /// Items whose first two copies these are.
     fn repeat(&mut self, items: &[T], start: usize, copies: usize) {
         let (first, second) = items.split_at(items.len() / 2);
-        self.stretch(start, copies * first.len(), first.len() as u32);
+        let strides: Vec<_> = first.iter().zip(second).map(|(a, b)| strides(a, b)).collect();
+        let width = strides.iter().map(Vec::len).max().unwrap_or_default();
+        self.stretch(start, copies * first.len(), first.len() as u32, width as u32);
         self.items.extend_from_slice(first);
-        self.strides.extend(first.iter().zip(second).map(|(a, b)| stride(a, b)));
+        for of_item in strides {
+            self.strides.extend(of_item.into_iter().chain(iter::repeat(0)).take(width));
+        }
     }
 
-    fn stretch(&mut self, start: usize, length: usize, period: u32) {
+    fn stretch(&mut self, start: usize, length: usize, period: u32, width: u32) {
         self.stretches.push(Stretch {
             start: start as u32,
             end: (start + length) as u32,
             items: self.items.len() as u32,
             strides: self.strides.len() as u32,
+            width,
             period,
             inverse: u64::MAX.checked_div(u64::from(period)).map_or(0, |inverse| inverse.saturating_add(1)),
         });
@@ -143,6 +138,23 @@ impl<T: Repeat> Packed<T> {
     /// The item at a position.
     #[inline]
     pub(crate) fn at(&self, position: usize) -> T {
+        let (stretch, place, copy) = self.find(position);
+        let item = &self.items[(stretch.items + place) as usize];
+        if copy == 0 {
+            return item.clone();
+        }
+        shifted(item, &self.strides[(stretch.strides + place * stretch.width) as usize..], copy)
+    }
+
+    /// An item like that at a position but for its numbers.
+    pub(crate) fn pattern(&self, position: usize) -> &T {
+        let (stretch, place, _) = self.find(position);
+        &self.items[(stretch.items + place) as usize]
+    }
+
+    /// The stretch of a position, which of its items is there, and in which copy.
+    #[inline]
+    fn find(&self, position: usize) -> (Stretch, u32, u32) {
         let at = position as u32;
         let mut stretch = &self.stretches[self.index[position >> INDEXED] as usize..];
         while at >= stretch[0].end {
@@ -150,29 +162,52 @@ impl<T: Repeat> Packed<T> {
         }
         let stretch = stretch[0];
         let behind = at - stretch.start;
-        if stretch.inverse == 0 {
-            return self.items[(stretch.items + behind) as usize].clone();
-        }
-        let copy = ((u128::from(stretch.inverse) * u128::from(behind)) >> 64) as u32;
-        let copy = if stretch.period == 1 { behind } else { copy };
-        let place = behind - copy * stretch.period;
-        let [a, b, c] = self.strides[(stretch.strides + place) as usize];
-        let item = &self.items[(stretch.items + place) as usize];
-        item.shifted([a, b, c].map(|stride| stride.wrapping_mul(copy)))
+        let copy = match stretch.period {
+            1 => behind,
+            _ => ((u128::from(stretch.inverse) * u128::from(behind)) >> 64) as u32,
+        };
+        (stretch, behind - copy * stretch.period, copy)
     }
 }
 
 /// How often the first `period` items are repeated, themselves included.
 fn copies<T: Repeat>(items: &[T], period: usize) -> usize {
-    let alike = |at: usize| -> Option<bool> {
-        let (first, second) = (&items[at % period], items.get(period + at % period)?);
-        let item = items.get(at)?;
-        let copy = (at / period) as u32;
-        let by = stride(first, second).map(|stride| stride.wrapping_mul(copy));
-        Some(first.form() == second.form() && *item == first.shifted(by))
+    let mut by = Vec::with_capacity(period);
+    for place in 0..period {
+        let (first, second) = (&items[place], items.get(period + place));
+        let Some(second) = second.filter(|second| form(first) == form(second)) else { return 1 };
+        by.push(strides(first, second));
+    }
+    let repeats = |(at, item): (usize, &T)| {
+        let (place, copy) = (at % period, (at / period) as u32);
+        *item == shifted(&items[place], &by[place], copy)
     };
-    let count = (period..).take_while(|&at| alike(at) == Some(true)).count();
-    1 + count / period
+    let count = items.iter().enumerate().skip(2 * period).take_while(|&item| repeats(item)).count();
+    2 + count / period
+}
+
+/// The same with numbers that are 0.
+fn form<T: Repeat>(item: &T) -> T {
+    item.renumbered(|_| 0)
+}
+
+/// So many copies later: its numbers have gone up by the strides so often, modulo 2³².
+#[inline]
+fn shifted<T: Repeat>(item: &T, strides: &[u32], copies: u32) -> T {
+    let mut strides = strides.iter();
+    item.renumbered(|number| number.wrapping_add(strides.next().map_or(0, |by| by.wrapping_mul(copies))))
+}
+
+fn strides<T: Repeat>(from: &T, to: &T) -> Vec<u32> {
+    let numbers = |item: &T| {
+        let mut numbers = Vec::new();
+        item.renumbered(|number| {
+            numbers.push(number);
+            number
+        });
+        numbers
+    };
+    numbers(from).into_iter().zip(numbers(to)).map(|(from, to)| to.wrapping_sub(from)).collect()
 }
 
 /// What items look like, whatever their numbers.
@@ -182,80 +217,13 @@ fn look<T: Repeat>(items: &[T]) -> u64 {
     hasher.finish()
 }
 
-fn stride<T: Repeat>(from: &T, to: &T) -> Numbers {
-    let (from, to) = (from.numbers(), to.numbers());
-    std::array::from_fn(|k| to[k].wrapping_sub(from[k]))
-}
-
-impl Repeat for Node {
-    #[inline]
-    fn numbers(&self) -> Numbers {
-        let of = |id: NodeId| id.position() as u32;
-        match *self {
-            Node::Number(_) | Node::Boolean(_) => [0; 3],
-            Node::Leaf(leaf) => [index(leaf), 0, 0],
-            Node::Unary(_, a) | Node::IntegerPower(a, _) | Node::Not(a) => [of(a), 0, 0],
-            Node::Locate(_, a) | Node::Lookup(_, a) => [of(a), 0, 0],
-            Node::Binary(_, a, b) | Node::Compare(_, a, b) | Node::And(a, b) | Node::Or(a, b) => {
-                [of(a), of(b), 0]
-            }
-            Node::Select(a, b, c) => [of(a), of(b), of(c)],
-        }
-    }
-
-    #[inline]
-    fn shifted(&self, [a1, b1, c1]: Numbers) -> Self {
-        let to = |id: NodeId, by: u32| NodeId::new((id.position() as u32).wrapping_add(by) as usize);
-        match *self {
-            node @ (Node::Number(_) | Node::Boolean(_)) => node,
-            Node::Leaf(leaf) => Node::Leaf(shifted_leaf(leaf, a1)),
-            Node::Unary(function, a) => Node::Unary(function, to(a, a1)),
-            Node::IntegerPower(a, n) => Node::IntegerPower(to(a, a1), n),
-            Node::Not(a) => Node::Not(to(a, a1)),
-            Node::Locate(column, a) => Node::Locate(column, to(a, a1)),
-            Node::Lookup(column, a) => Node::Lookup(column, to(a, a1)),
-            Node::Binary(function, a, b) => Node::Binary(function, to(a, a1), to(b, b1)),
-            Node::Compare(comparison, a, b) => Node::Compare(comparison, to(a, a1), to(b, b1)),
-            Node::And(a, b) => Node::And(to(a, a1), to(b, b1)),
-            Node::Or(a, b) => Node::Or(to(a, a1), to(b, b1)),
-            Node::Select(a, b, c) => Node::Select(to(a, a1), to(b, b1), to(c, c1)),
-        }
-    }
-
-    fn look(&self, hasher: &mut FxHasher) {
-        self.form().hash(hasher);
-    }
-}
-
-fn index(leaf: Leaf) -> u32 {
-    match leaf {
-        Leaf::Parameter(ParameterIndex(i))
-        | Leaf::State(StateIndex(i))
-        | Leaf::Input(InputIndex(i))
-        | Leaf::Algebraic(AlgebraicIndex(i))
-        | Leaf::Truth(TruthIndex(i))
-        | Leaf::Stair(StairIndex(i)) => i,
-        Leaf::Variable(_) | Leaf::Special(_) | Leaf::Time => 0,
-    }
-}
-
-fn shifted_leaf(leaf: Leaf, by: u32) -> Leaf {
-    match leaf {
-        Leaf::Parameter(ParameterIndex(i)) => Leaf::Parameter(ParameterIndex(i.wrapping_add(by))),
-        Leaf::State(StateIndex(i)) => Leaf::State(StateIndex(i.wrapping_add(by))),
-        Leaf::Input(InputIndex(i)) => Leaf::Input(InputIndex(i.wrapping_add(by))),
-        Leaf::Algebraic(AlgebraicIndex(i)) => Leaf::Algebraic(AlgebraicIndex(i.wrapping_add(by))),
-        Leaf::Truth(TruthIndex(i)) => Leaf::Truth(TruthIndex(i.wrapping_add(by))),
-        Leaf::Stair(StairIndex(i)) => Leaf::Stair(StairIndex(i.wrapping_add(by))),
-        Leaf::Variable(_) | Leaf::Special(_) | Leaf::Time => leaf,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::arithmetic::{Binary, Unary};
+    use crate::graph::{Leaf, Node, NodeId};
     use proptest::prelude::*;
+    use sophy_field::StateIndex;
 
     fn node(kind: u8, a: u32, b: u32) -> Node {
         let id = |k: u32| NodeId::new(k as usize);

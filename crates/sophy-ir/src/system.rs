@@ -3,6 +3,7 @@ use crate::class::{Allowed, ClassIndex, VariableId};
 use crate::graph::{Graph, Leaf, Node, NodeId};
 use crate::model::Quantity;
 use crate::names::{ComponentIndex, Components};
+use crate::repeated::{Repeated, Shared};
 use sophy_diagnostics::Span;
 use sophy_field::{
     AutomatonIndex, ColumnIndex, EventIndex, InputIndex, LocationIndex, ParameterIndex, StairIndex,
@@ -34,21 +35,21 @@ pub struct System {
     /// Inputs from outside.
     pub inputs: Vec<Input>,
     /// Continuous states, the union over locations.
-    pub states: Vec<State>,
+    pub states: Repeated<State>,
     /// Outputs of one automaton read by another, in an order in which they can be evaluated.
-    pub algebraics: Vec<Algebraic>,
+    pub algebraics: Repeated<Algebraic>,
     /// Outputs.
-    pub outputs: Vec<Output>,
+    pub outputs: Repeated<Output>,
     /// Automata, in the order of components.
-    pub automata: Vec<Automaton>,
+    pub automata: Repeated<Automaton>,
     /// Transitions, in written order.
-    pub transitions: Vec<FlatTransition>,
+    pub transitions: Repeated<FlatTransition>,
     /// Input events.
-    pub events: Vec<Event>,
+    pub events: Repeated<Event>,
     /// Scalars whose sign changes are located; one that reads a truth or stair comes after its watches.
-    pub watches: Vec<Watch>,
+    pub watches: Repeated<Watch>,
     /// Decided comparisons.
-    pub truths: Vec<Truth>,
+    pub truths: Repeated<Truth>,
     /// Staircases.
     pub stairs: Vec<Stair>,
     /// What is watched though no rate or guard reads it: rows that read the stairs of tables which outputs read.
@@ -91,7 +92,7 @@ pub enum Ranged {
         /// Its component.
         component: ComponentIndex,
         /// What was declared.
-        declared: Arc<Declared>,
+        declared: Shared<Declared>,
         /// Its value, switches as written.
         value: Row,
     },
@@ -234,16 +235,16 @@ pub struct Input {
     /// Its component.
     pub component: ComponentIndex,
     /// What was declared.
-    pub declared: Arc<Declared>,
+    pub declared: Shared<Declared>,
 }
 
 /// A state: continuous, or one that changes at instants only (its rate is 0 everywhere).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// Its component.
     pub component: ComponentIndex,
     /// What was declared.
-    pub declared: Arc<Declared>,
+    pub declared: Shared<Declared>,
     /// Whether it changes at instants only: a mode, or what a discrete-time component keeps.
     pub discrete: bool,
     /// Initial value over parameters; `None` when the experiment must give it.
@@ -269,12 +270,12 @@ pub struct Row {
 }
 
 /// A quantity defined by other quantities at the same instant.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Algebraic {
     /// Its component.
     pub component: ComponentIndex,
     /// What was declared.
-    pub declared: Arc<Declared>,
+    pub declared: Shared<Declared>,
     /// Its value, smooth: read by rates and guards.
     pub value: Row,
     /// Its value with switches as written: read by outputs and resets.
@@ -282,12 +283,12 @@ pub struct Algebraic {
 }
 
 /// An output.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Output {
     /// Its component.
     pub component: ComponentIndex,
     /// What was declared.
-    pub declared: Arc<Declared>,
+    pub declared: Shared<Declared>,
     /// Whether it is only to be looked at: no output of the interface.
     pub view: bool,
     /// Its value.
@@ -307,12 +308,12 @@ pub enum Role {
 }
 
 /// A hybrid automaton.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Automaton {
     /// Its component.
     pub component: ComponentIndex,
     /// What it has in common with its copies.
-    pub kind: Arc<AutomatonKind>,
+    pub kind: Shared<AutomatonKind>,
     /// Its first transition; its others follow.
     pub first: TransitionIndex,
 }
@@ -347,7 +348,7 @@ impl Automaton {
 }
 
 /// When a transition is taken.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum FlatTrigger {
     /// While the condition holds.
     When(NodeId),
@@ -371,10 +372,10 @@ impl FlatTrigger {
 }
 
 /// A transition.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FlatTransition {
     /// Name as written.
-    pub name: String,
+    pub name: Arc<str>,
     /// The automaton.
     pub automaton: AutomatonIndex,
     /// Location left.
@@ -396,10 +397,10 @@ pub struct FlatTransition {
 }
 
 /// `emit label`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FlatEmission {
     /// The label.
-    pub label: String,
+    pub label: Arc<str>,
     /// Who receives it.
     pub receivers: Vec<EventIndex>,
     /// Only if this holds before the micro-step; switches inside it are plain.
@@ -407,7 +408,7 @@ pub struct FlatEmission {
 }
 
 /// `state := value`, read before the micro-step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FlatReset {
     /// The state.
     pub state: StateIndex,
@@ -418,12 +419,12 @@ pub struct FlatReset {
 }
 
 /// An input event of one automaton.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// `component.label`, or the label alone.
-    pub name: String,
+    /// Its component.
+    pub component: ComponentIndex,
     /// Label.
-    pub label: String,
+    pub label: Arc<str>,
     /// Who receives it.
     pub receiver: Receiver,
 }
@@ -436,7 +437,7 @@ pub struct Receiver {
 }
 
 /// A scalar `left − right` whose first sign change is to be located.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Watch {
     /// One side.
     pub left: NodeId,
@@ -553,7 +554,7 @@ impl System {
             Leaf::Time => "time".to_owned(),
             Leaf::Truth(i) => match self.truths.get(i.position()) {
                 Some(truth) => {
-                    let watch = &self.watches[truth.watch.position()];
+                    let watch = self.watches.at(truth.watch.position());
                     let (left, right) = (self.text(watch.left), self.text(watch.right));
                     format!("({left} {} {right})", truth.comparison.symbol())
                 }
@@ -595,7 +596,7 @@ impl System {
                     found.insert(leaf);
                 }
                 Leaf::Algebraic(z) => {
-                    let row = self.algebraics[z.position()].value;
+                    let row = self.algebraics.at(z.position()).value;
                     pending.extend(self.graph.dependencies(self.nodes(row).iter().copied()));
                 }
                 _ => {}
@@ -613,16 +614,17 @@ impl System {
         let rows = self
             .states
             .iter()
-            .map(|s| (&s.declared.name, &s.rate))
-            .chain(self.algebraics.iter().map(|z| (&z.declared.name, &z.value)))
-            .chain(self.outputs.iter().map(|y| (&y.declared.name, &y.value)))
-            .chain(self.guarded.iter().map(|row| (&self.name, row)));
-        for (name, row) in rows {
+            .map(|s| (Some(s.declared), s.rate))
+            .chain(self.algebraics.iter().map(|z| (Some(z.declared), z.value)))
+            .chain(self.outputs.iter().map(|y| (Some(y.declared), y.value)))
+            .chain(self.guarded.iter().map(|row| (None, *row)));
+        for (declared, row) in rows {
+            let name = declared.as_ref().map_or(&self.name, |declared| &declared.name);
             let Some(owner) = self.automata.get(row.owner.position()) else {
                 return fail(format!("row of `{name}` has no owner"));
             };
             let locations = owner.kind.locations.len();
-            if row.locations as usize != locations || self.nodes(*row).len() != locations {
+            if row.locations as usize != locations || self.nodes(row).len() != locations {
                 return fail(format!("row of `{name}` does not have one expression per location"));
             }
         }
@@ -632,8 +634,9 @@ impl System {
             .flat_map(|s| self.nodes(s.rate))
             .chain(self.algebraics.iter().flat_map(|z| self.nodes(z.value)))
             .chain(self.guarded.iter().flat_map(|row| self.nodes(*row)))
-            .chain(self.watches.iter().map(|w| &w.difference));
-        for id in self.graph.reachable_switches(smooth.copied()) {
+            .copied()
+            .chain(self.watches.iter().map(|w| w.difference));
+        for id in self.graph.reachable_switches(smooth) {
             match self.graph.node(id) {
                 Node::Compare(..) if !self.is_parametric(id) => {
                     return fail(format!("`{}` was not lifted", self.text(id)));
@@ -669,7 +672,7 @@ impl System {
                 return fail(format!("transition `{}` emits {event}, which does not exist", transition.name));
             }
         }
-        let resets = self.transitions.iter().flat_map(|t| &t.resets).chain(&self.initial);
+        let resets = self.transitions.iter().flat_map(|t| t.resets).chain(self.initial.iter().cloned());
         if let Some(reset) = resets.into_iter().find(|r| r.state.position() >= self.states.len()) {
             return fail(format!("{} is assigned and does not exist", reset.state));
         }

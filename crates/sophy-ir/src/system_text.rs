@@ -15,12 +15,12 @@ impl fmt::Display for System {
             writeln!(f, "  input {}{}", u.name(self), kind(&u.declared))?;
         }
         self.write_states(f)?;
-        for z in &self.algebraics {
+        for z in self.algebraics.iter() {
             let name = z.name(self);
             writeln!(f, "  algebraic {name}")?;
             self.write_row(f, &name, z.value)?;
         }
-        for y in &self.outputs {
+        for y in self.outputs.iter() {
             let (what, name) = (if y.view { "view" } else { "output" }, y.name(self));
             writeln!(f, "  {what} {name}{}", kind(&y.declared))?;
             self.write_row(f, &name, y.value)?;
@@ -97,7 +97,7 @@ impl System {
                 for t in a.outgoing(LocationIndex::new(position)) {
                     let Some(t) = self.transitions.get(t.position()) else { continue };
                     let to = a.kind.locations.get(t.destination.position()).map_or("?", |l| l.name.as_str());
-                    self.write_transition(f, t, to)?;
+                    self.write_transition(f, &t, to)?;
                 }
             }
         }
@@ -131,7 +131,7 @@ impl System {
 
     fn receivers_text(&self, receivers: &[EventIndex]) -> String {
         let names = receivers.iter().filter_map(|e| self.events.get(e.position()));
-        names.map(|event| event.name.as_str()).collect::<Vec<_>>().join(", ")
+        names.map(|event| event.name(self)).collect::<Vec<_>>().join(", ")
     }
 
     /// `when GUARD` or `on EVENT when GUARD`.

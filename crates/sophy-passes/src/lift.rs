@@ -53,21 +53,22 @@ struct Lifted {
 impl Lifter<'_> {
     fn system(&mut self) {
         for z in 0..self.system.algebraics.len() {
-            let row = self.system.algebraics[z].value;
+            let row = self.system.algebraics.at(z).value;
             self.row(row);
             let nodes = self.system.nodes(row);
             self.linearity.algebraic(&self.system.graph, AlgebraicIndex::new(z), nodes);
         }
         for x in 0..self.system.states.len() {
-            self.row(self.system.states[x].rate);
+            self.row(self.system.states.at(x).rate);
         }
         for t in 0..self.system.transitions.len() {
-            self.system.transitions[t].trigger = match self.system.transitions[t].trigger.clone() {
+            let trigger = match self.system.transitions.at(t).trigger {
                 FlatTrigger::When(guard) => FlatTrigger::When(self.lift(guard)),
                 FlatTrigger::On { events, guard } => {
                     FlatTrigger::On { events, guard: guard.map(|g| self.lift(g)) }
                 }
             };
+            self.system.transitions.unfinished()[t].trigger = trigger;
         }
         self.outputs();
         self.ranges();
@@ -81,9 +82,9 @@ impl Lifter<'_> {
                 continue;
             };
             let (row, mut nodes) = match of {
-                Ranged::State(state) if !self.system.states[state.position()].discrete => {
+                Ranged::State(state) if !self.system.states.at(state.position()).discrete => {
                     let leaf = self.system.graph.leaf(Leaf::State(*state));
-                    let row = self.system.states[state.position()].rate;
+                    let row = self.system.states.at(state.position()).rate;
                     (row, vec![leaf; row.locations as usize])
                 }
                 Ranged::Value { value, .. } => (*value, self.system.nodes(*value).to_vec()),
@@ -114,7 +115,7 @@ impl Lifter<'_> {
             return;
         }
         for y in 0..self.system.outputs.len() {
-            let row = self.system.outputs[y].value;
+            let row = self.system.outputs.at(y).value;
             let (mut nodes, mut any) = (self.system.nodes(row).to_vec(), false);
             for node in &mut nodes {
                 let below = self.system.graph.reachable([*node]);

@@ -4,8 +4,8 @@
 use sophy_field::EventIndex;
 use sophy_ir::{
     Body, Class, ClassIndex, Composite, EventEnd, EventPort, EventWire, Feature, HybridAutomaton, Leaf,
-    Location, Member, Model, Node, NodeId, Port, Quantity, Sources, Special, System, Trigger, Variable,
-    VariableId, VariableKind, Wire,
+    Location, Member, Model, Node, NodeId, Port, Quantity, Repeated, Sources, Special, System, Trigger,
+    Variable, VariableId, VariableKind, Wire,
 };
 use sophy_passes::{FlattenError, PassError, flatten, lower};
 use sophy_testkit::Build;
@@ -56,7 +56,7 @@ fn wire(from: Port, to: Port) -> Wire {
 }
 
 fn composite(name: &str, members: Vec<Member>, wires: Vec<Wire>) -> Class {
-    let body = Body::Composite(Composite { members, wires: wires.into(), event_wires: Vec::new() });
+    let body = Body::Composite(Composite { members, wires: wires.into(), event_wires: Repeated::default() });
     Class { name: name.to_owned(), body, ..Class::default() }
 }
 
@@ -65,8 +65,8 @@ fn model(mut classes: Vec<Class>, root: Class) -> Model {
     Model { root: ClassIndex(classes.len() as u32 - 1), classes, ..Model::default() }
 }
 
-fn names<T>(items: &[T], name: impl Fn(&T) -> String) -> Vec<String> {
-    items.iter().map(name).collect()
+fn names<T>(items: impl IntoIterator<Item = T>, name: impl Fn(T) -> String) -> Vec<String> {
+    items.into_iter().map(name).collect()
 }
 
 fn row_text(system: &System, row: &sophy_ir::Row) -> String {
@@ -119,10 +119,10 @@ fn a_ring_of_a_hundred_thousand_cells_is_flat_in_seconds() {
     assert!(elapsed < Duration::from_secs(30), "{elapsed:?}");
     assert_eq!((system.states.len(), system.inputs.len()), (300_000, 0));
     assert_eq!(names(&system.parameters, |p| p.name.clone()), ["cell.tau"]);
-    assert_eq!(system.states[50].name(&system), "cell[17].x3");
-    assert_eq!(row_text(&system, &system.states[51].rate), "(cell[17].x3 - cell[18].x1) / cell.tau");
-    assert_eq!(row_text(&system, &system.states[0].rate), "(cell[100000].x3 - cell[1].x1) / cell.tau");
-    assert_eq!(system.outputs[99_999].name(&system), "cell[100000].y");
+    assert_eq!(system.states.at(50).name(&system), "cell[17].x3");
+    assert_eq!(row_text(&system, &system.states.at(51).rate), "(cell[17].x3 - cell[18].x1) / cell.tau");
+    assert_eq!(row_text(&system, &system.states.at(0).rate), "(cell[100000].x3 - cell[1].x1) / cell.tau");
+    assert_eq!(system.outputs.at(99_999).name(&system), "cell[100000].y");
     // A copy costs what is new in it: three states and four operations.
     assert!(system.graph.len() < 8 * COUNT as usize, "{}", system.graph.len());
 }
@@ -136,7 +136,7 @@ fn a_chain_of_outputs_needs_no_stack() {
     let run = move || {
         let system = flatten(&model).unwrap();
         assert_eq!(names(&system.inputs, |u| u.name(&system)), ["gain[100000].u"]);
-        assert_eq!(row_text(&system, &system.outputs[99_998].value), "gain[100000].u + 1.0 + 1.0");
+        assert_eq!(row_text(&system, &system.outputs.at(99_998).value), "gain[100000].u + 1.0 + 1.0");
         // One addition per copy: what is read is what was made.
         assert_eq!(system.graph.len(), COUNT as usize + 2);
     };
@@ -181,16 +181,16 @@ fn names_parameters_and_ports_through_two_composites() {
     assert_eq!(names(&system.parameters, |p| p.name.clone()), ["scale", "plant.k", "plant.cell.tau"]);
     let parameter = |k: usize| system.text(system.parameters[k].value);
     assert_eq!([parameter(1), parameter(2)], ["scale + 1.0", "plant.k * 3.0"]);
-    assert_eq!(system.states[9].name(&system), "plant[1].cell[2,2].x1");
+    assert_eq!(system.states.at(9).name(&system), "plant[1].cell[2,2].x1");
     let inputs = ["drive", "plant[1].cell[2,2].u", "plant[2].u", "plant[2].cell[2,2].u"];
     assert_eq!(names(&system.inputs, |u| u.name(&system)), inputs);
-    let rate = |k: usize| row_text(&system, &system.states[k].rate);
+    let rate = |k: usize| row_text(&system, &system.states.at(k).rate);
     assert_eq!(rate(0), "(drive - plant[1].cell[1,1].x1) / plant.cell.tau");
     assert_eq!(rate(3), "(plant[1].cell[1,1].x3 - plant[1].cell[1,2].x1) / plant.cell.tau");
     assert_eq!(rate(6), "(0.0 - plant[1].cell[2,1].x1) / plant.cell.tau");
-    assert_eq!(system.outputs[0].name(&system), "z");
+    assert_eq!(system.outputs.at(0).name(&system), "z");
     assert_eq!(
-        row_text(&system, &system.outputs[0].value),
+        row_text(&system, &system.outputs.at(0).value),
         "2.0 * plant[2].cell[2,1].x3 + plant[2].cell[2,2].x3 + -1.0 * plant[2].cell[1,2].x3"
     );
     // One output of the whole, one per cell; those of inner composites are no outputs of the system.
@@ -217,7 +217,7 @@ fn elements_of_arrays_may_have_parameters_of_their_own() {
         ["craft[1].tau", "craft[2].tau", "craft[3].tau"]
     );
     assert_eq!(system.text(system.parameters[2].value), "12.0");
-    assert_eq!(system.states[3].name(&system), "craft[2].x1");
+    assert_eq!(system.states.at(3).name(&system), "craft[2].x1");
 }
 
 #[test]
@@ -265,17 +265,17 @@ fn values_are_written_out_location_by_location() {
     let wires = vec![wire(port(Some(0), 0, 1), port(Some(1), 0, 0))];
     let members = vec![member("p", 0, &[]), member("q", 1, &[])];
     let system = lower(&model(vec![class("P", &b), gain()], composite("W", members, wires))).unwrap();
-    let rate = &system.states[0].rate;
+    let rate = &system.states.at(0).rate;
     let texts: Vec<String> = system.nodes(*rate).iter().map(|&node| system.text(node)).collect();
     assert_eq!(texts, ["2.0 * p.x", "p.x"]);
-    assert_eq!(names(&system.algebraics, |z| z.name(&system)), ["p.a"]);
-    assert_eq!(row_text(&system, &system.outputs[2].value), "p.a + 1.0");
+    assert_eq!(names(system.algebraics.iter(), |z| z.name(&system)), ["p.a"]);
+    assert_eq!(row_text(&system, &system.outputs.at(2).value), "p.a + 1.0");
 }
 
 /// A label leaves two composites and enters two others.
 #[test]
 fn events_cross_the_boundaries_of_composites() {
-    let event = |name: &str| EventPort { name: name.to_owned(), documentation: String::new(), span: None };
+    let event = |name: &str| EventPort { name: name.into(), documentation: String::new(), span: None };
     let mut b = Build::default();
     b.component("");
     let x = b.state("x", 0.0);
@@ -285,8 +285,7 @@ fn events_cross_the_boundaries_of_composites() {
     b.when(here, "go", guard, here, &[]);
     b.emit(here, "out");
     b.on(here, "in", here, &[]);
-    let end =
-        |member: Option<u32>, copy: u32, label: &str| EventEnd { member, copy, label: label.to_owned() };
+    let end = |member: Option<u32>, copy: u32, label: &str| EventEnd { member, copy, label: label.into() };
     let joined = |from: EventEnd, to: EventEnd| EventWire { from, to, synchronised: false, span: None };
     let shell = |inner: u32, name: &str| {
         let mut shell = composite(name, vec![member("m", inner, &[2])], Vec::new());
@@ -306,13 +305,13 @@ fn events_cross_the_boundaries_of_composites() {
     body.event_wires.push(joined(end(Some(0), 0, "exit"), end(Some(1), 0, "entry")));
     body.event_wires.push(joined(end(None, 0, "start"), end(Some(0), 0, "entry")));
     let system = lower(&model(vec![class("Leaf", &b), inner, outer], root)).unwrap();
-    let name = |e: &EventIndex| system.events[e.position()].name.as_str();
-    let of = |k: usize| system.transitions[2 * k].emits[0].receivers.iter().map(name).collect::<Vec<_>>();
+    let name = |e: &EventIndex| system.events.at(e.position()).name(&system);
+    let of = |k: usize| system.transitions.at(2 * k).emits[0].receivers.iter().map(name).collect::<Vec<_>>();
     // Leaves in order: a.m[1].m[1], a.m[1].m[2], a.m[2].m[1], a.m[2].m[2], b. …; only the last of a is heard.
     assert_eq!(of(0), Vec::<&str>::new());
     assert_eq!(of(3), ["b.m[1].m[1].in", "b.m[1].m[2].in", "b.m[2].m[1].in", "b.m[2].m[2].in"]);
     assert_eq!(system.event_inputs[0].name, "start");
-    let started: Vec<&str> = system.event_inputs[0].receivers.iter().map(name).collect();
+    let started: Vec<String> = system.event_inputs[0].receivers.iter().map(name).collect();
     assert_eq!(started, ["a.m[1].m[1].in", "a.m[1].m[2].in", "a.m[2].m[1].in", "a.m[2].m[2].in"]);
 }
 
@@ -333,12 +332,15 @@ fn truth_values_are_numbers_where_numbers_are_wanted() {
     b.rate(here, x, rate);
     b.when(here, "raise", both, here, &[(alarm, both)]);
     let system = lower(&b.model()).unwrap();
-    assert!(system.states[0].discrete && !system.states[1].discrete);
-    let assigned = system.text(system.transitions[0].resets[0].value);
+    assert!(system.states.at(0).discrete && !system.states.at(1).discrete);
+    let assigned = system.text(system.transitions.at(0).resets[0].value);
     assert_eq!(assigned, "if x > 1.0 and not alarm > 0.5 then 1.0 else 0.0");
-    assert_eq!(row_text(&system, &system.outputs[0].value), assigned);
-    assert_eq!(row_text(&system, &system.states[1].rate), "if (alarm > 0.5) then 1.0 else 3.0");
-    assert_eq!(system.trigger_text(&system.transitions[0].trigger), "when (x > 1.0) and not (alarm > 0.5)");
+    assert_eq!(row_text(&system, &system.outputs.at(0).value), assigned);
+    assert_eq!(row_text(&system, &system.states.at(1).rate), "if (alarm > 0.5) then 1.0 else 3.0");
+    assert_eq!(
+        system.trigger_text(&system.transitions.at(0).trigger),
+        "when (x > 1.0) and not (alarm > 0.5)"
+    );
 }
 
 #[test]
@@ -353,7 +355,7 @@ fn what_cannot_be_run_yet_is_listed_once_per_member() {
         name: "here".to_owned(),
         dynamics: vec![sophy_ir::Equation { variable: VariableId(1), right: delayed, span: None }],
         transitions: vec![sophy_ir::Transition {
-            name: "fail".to_owned(),
+            name: "fail".into(),
             documentation: String::new(),
             span: None,
             trigger: Trigger::Rate { rate: half, guard: None },
@@ -382,9 +384,9 @@ fn what_cannot_be_run_yet_is_listed_once_per_member() {
         (Feature::Rate, "late", "rate 0.5"),
     ];
     assert_eq!(sorted, expected);
-    assert!(system.states[3].discrete && system.states[3].name(&system) == "control.y");
+    assert!(system.states.at(3).discrete && system.states.at(3).name(&system) == "control.y");
     assert!(matches!(
-        system.graph.node(system.nodes(system.states[0].rate)[0]),
+        system.graph.node(system.nodes(system.states.at(0).rate)[0]),
         Node::Leaf(Leaf::Special(_))
     ));
 }

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may panic
 
 use sophy_ir::{
-    Allowed, Body, ClassIndex, Composite, Leaf, Member, Port, Quantity, Sources, Special, VariableId, Wire,
+    Allowed, Body, ClassIndex, Composite, Leaf, Member, Port, Quantity, Repeated, Sources, Special,
+    VariableId, Wire,
 };
 use sophy_testkit::Build;
 
@@ -64,8 +65,11 @@ fn classes_members_and_wires_are_shown_as_they_are_written() {
         Wire { to: port(0, 0), from: Sources::One(port(3, 1)), span: None },
         Wire { to: port(1, 0), from: sum, span: None },
     ];
-    root.body =
-        Body::Composite(Composite { members: vec![member], wires: wires.into(), event_wires: Vec::new() });
+    root.body = Body::Composite(Composite {
+        members: vec![member],
+        wires: wires.into(),
+        event_wires: Repeated::default(),
+    });
     model.classes.push(root);
     model.root = ClassIndex(1);
     let expected = r#"model Whole

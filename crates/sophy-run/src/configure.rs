@@ -54,8 +54,8 @@ pub(crate) fn configure(
     for (component, location) in &experiment.initial_locations {
         collect(initial_location(system, component, location, &mut locations));
     }
-    let states = || names(&system.states, |s| s.name(system));
-    let known = positions(&system.states, |s| s.name(system), experiment.initial.is_empty());
+    let states = || names(system.states.iter(), |s| s.name(system));
+    let known = positions(system.states.iter(), |s| s.name(system), experiment.initial.is_empty());
     for (name, _) in &experiment.initial {
         if !known.contains_key(name.as_str()) {
             collect(Err(unknown("initial", "state", name, &states())));
@@ -82,7 +82,7 @@ pub(crate) fn configure(
             receivers.clone_from(&port.receivers);
         } else if receivers.is_empty() {
             let mut known = names(&system.event_inputs, |port| port.name.clone());
-            known.extend(names(&system.events, |event| event.name.clone()));
+            known.extend(names(system.events.iter(), |event| event.name(system)));
             collect(Err(unknown("input_events", "input event", label, &known)));
         }
         events.extend(receivers.into_iter().map(|event| (*time, event)));
@@ -104,7 +104,7 @@ fn quanta(experiment: &Experiment, system: &System, default: Quantum) -> Vec<Qua
         exact.into_iter().map(|(at, rule)| (rule.pattern.as_str(), (at, rule.quantum))).collect();
     // Names are computed: not where nobody asks for them.
     let asked = experiment.quanta.iter().any(|rule| rule.pattern != "*");
-    let quantum = |state: &State| {
+    let quantum = |state: State| {
         let name = if asked { state.name(system) } else { String::new() };
         let exact = exact.get(name.as_str()).copied();
         let after = patterns.iter().rev().take_while(|(at, _)| exact.is_none_or(|(exact, _)| *at > exact));
@@ -115,14 +115,14 @@ fn quanta(experiment: &Experiment, system: &System, default: Quantum) -> Vec<Qua
 }
 
 /// The events that a name or a label means.
-fn receivers(system: &System) -> FxHashMap<&str, Vec<EventIndex>> {
-    let mut known: FxHashMap<&str, Vec<EventIndex>> = FxHashMap::default();
+fn receivers(system: &System) -> FxHashMap<String, Vec<EventIndex>> {
+    let mut known: FxHashMap<String, Vec<EventIndex>> = FxHashMap::default();
     for (position, event) in system.events.iter().enumerate() {
-        let index = EventIndex::new(position);
-        known.entry(&event.label).or_default().push(index);
-        if event.name != event.label {
-            known.entry(&event.name).or_default().push(index);
+        let (index, name) = (EventIndex::new(position), event.name(system));
+        if *name != *event.label {
+            known.entry(name).or_default().push(index);
         }
+        known.entry(event.label.to_string()).or_default().push(index);
     }
     known
 }
@@ -181,13 +181,13 @@ fn initial_location(
     location: &str,
     locations: &mut [LocationIndex],
 ) -> Result<(), ExperimentError> {
-    let is_meant = |a: &Automaton| a.kind.role == Role::Component && a.name(system) == component;
+    let is_meant = |a: Automaton| a.kind.role == Role::Component && a.name(system) == component;
     let Some(position) = system.automata.iter().position(is_meant) else {
         let components = system.automata.iter().filter(|a| a.kind.role == Role::Component);
         let known: Vec<String> = components.map(|a| a.name(system)).collect();
         return Err(unknown("initial_location", "component", component, &known));
     };
-    let automaton = &system.automata[position].kind;
+    let automaton = &system.automata.at(position).kind;
     match automaton.locations.iter().position(|l| l.name == location) {
         Some(found) => {
             locations[position] = LocationIndex::new(found);
@@ -272,11 +272,20 @@ fn without_indices(name: &str) -> String {
 }
 
 /// Positions by name, the first of each; nothing if nobody will ask.
-fn positions<T>(items: &[T], name: impl Fn(&T) -> String, unasked: bool) -> FxHashMap<String, usize> {
-    let items = if unasked { &[] } else { items };
-    items.iter().enumerate().rev().map(|(position, item)| (name(item), position)).collect()
+fn positions<T>(
+    items: impl IntoIterator<Item = T>,
+    name: impl Fn(T) -> String,
+    unasked: bool,
+) -> FxHashMap<String, usize> {
+    let mut known = FxHashMap::default();
+    if !unasked {
+        for (position, item) in items.into_iter().enumerate() {
+            known.entry(name(item)).or_insert(position);
+        }
+    }
+    known
 }
 
-pub(crate) fn names<T>(items: &[T], name: impl Fn(&T) -> String) -> Vec<String> {
-    items.iter().map(name).collect()
+pub(crate) fn names<T>(items: impl IntoIterator<Item = T>, name: impl Fn(T) -> String) -> Vec<String> {
+    items.into_iter().map(name).collect()
 }

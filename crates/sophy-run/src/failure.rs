@@ -74,7 +74,7 @@ impl Failure {
 
     /// A transition gave a state a value that it cannot have.
     pub(crate) fn of_range(system: &System, transition: TransitionIndex, time: f64, sentence: &str) -> Self {
-        let by = &system.transitions[transition.position()];
+        let by = system.transitions.at(transition.position());
         Failure {
             time,
             message: format!("{sentence}, at t = {time} s"),
@@ -100,8 +100,8 @@ impl Failure {
 }
 
 fn transition_text(system: &System, transition: TransitionIndex) -> String {
-    let t = &system.transitions[transition.position()];
-    let automaton = &system.automata[t.automaton.position()];
+    let t = system.transitions.at(transition.position());
+    let automaton = system.automata.at(t.automaton.position());
     let name = |l: LocationIndex| &automaton.kind.locations[l.position()].name;
     format!("`{}` ({} → {})", t.name, name(t.source), name(t.destination))
 }
@@ -117,10 +117,10 @@ impl Reporter<'_> {
         match fault {
             Fault::NotFinite { state, time, value } => self.rate(state, time, value),
             Fault::StateNotFinite { state, time, value } => {
-                let name = self.system.states[state.position()].name(self.system);
+                let name = self.system.states.at(state.position()).name(self.system);
                 let mut failure =
                     self.failure("SR0002", time, format!("state `{name}` is {value} at t = {time} s"));
-                let resets = self.system.transitions.iter().flat_map(|t| &t.resets);
+                let resets = self.system.transitions.iter().flat_map(|t| t.resets);
                 for reset in resets.filter(|reset| reset.state == state) {
                     failure.notes.extend(self.outside(reset.value, time));
                 }
@@ -157,7 +157,7 @@ impl Reporter<'_> {
                 failure
             }
             Fault::Resolution { state, time } => {
-                let name = self.system.states[state.position()].name(self.system);
+                let name = self.system.states.at(state.position()).name(self.system);
                 let mut failure = self.failure(
                     "SR0005",
                     time,
@@ -195,14 +195,14 @@ impl Reporter<'_> {
     }
 
     fn rate(&self, state: StateIndex, time: f64, value: f64) -> Failure {
-        let name = self.system.states[state.position()].name(self.system);
+        let name = self.system.states.at(state.position()).name(self.system);
         let mut failure =
             self.failure("SR0001", time, format!("the derivative of `{name}` is {value} at t = {time} s"));
         failure.span = self.rate_span(state);
         failure.notes.push(self.equation(state));
         failure.notes.push(self.values(self.rate_sources(state), time));
         failure.notes.extend(self.outside(
-            self.system.at(self.system.states[state.position()].rate, self.location_of(state)),
+            self.system.at(self.system.states.at(state.position()).rate, self.location_of(state)),
             time,
         ));
         failure
@@ -215,9 +215,9 @@ impl Reporter<'_> {
         transitions: &[TransitionIndex; 2],
         values: &[f64; 2],
     ) -> Failure {
-        let name = self.system.states[state.position()].name(self.system);
+        let name = self.system.states.at(state.position()).name(self.system);
         let mut failure = self.failure("SR0010", time, format!("`{name}` is assigned twice at t = {time} s"));
-        failure.span = self.system.transitions[transitions[0].position()].span;
+        failure.span = self.system.transitions.at(transitions[0].position()).span;
         for (transition, value) in transitions.iter().zip(values) {
             failure.notes.push(format!("{} gives it {value}", self.transition(*transition)));
         }
@@ -300,7 +300,7 @@ impl Reporter<'_> {
             time,
             format!("livelock at t = {time} s: {steps} micro-steps were taken and time stands still"),
         );
-        failure.span = cycle.first().and_then(|t| self.system.transitions[t.position()].span);
+        failure.span = cycle.first().and_then(|t| self.system.transitions.at(t.position()).span);
         let how = if exact { "this round returns exactly to where it began" } else { "the last transitions" };
         failure.notes.push(format!("{how}: {}", names.join(", ")));
         failure.helps.push(
@@ -320,17 +320,17 @@ impl Reporter<'_> {
     }
 
     fn location_of(&self, state: StateIndex) -> LocationIndex {
-        let owner = self.system.states[state.position()].rate.owner;
+        let owner = self.system.states.at(state.position()).rate.owner;
         self.engine.locations()[owner.position()]
     }
 
     fn rate_span(&self, state: StateIndex) -> Option<Span> {
-        self.system.span(self.system.states[state.position()].rate, self.location_of(state))
+        self.system.span(self.system.states.at(state.position()).rate, self.location_of(state))
     }
 
     fn equation(&self, state: StateIndex) -> String {
-        let (s, location) = (&self.system.states[state.position()], self.location_of(state));
-        let owner = &self.system.automata[s.rate.owner.position()];
+        let (s, location) = (self.system.states.at(state.position()), self.location_of(state));
+        let owner = self.system.automata.at(s.rate.owner.position());
         let place = match owner.kind.locations.len() {
             1 => String::new(),
             _ => format!(" in location `{}`", owner.kind.locations[location.position()].name),
@@ -343,19 +343,19 @@ impl Reporter<'_> {
     }
 
     fn rate_sources(&self, state: StateIndex) -> Vec<Leaf> {
-        let row = self.system.states[state.position()].rate;
+        let row = self.system.states.at(state.position()).rate;
         self.system.graph.dependencies([self.system.at(row, self.location_of(state))]).into_iter().collect()
     }
 
     fn watch_text(&self, watch: WatchIndex) -> String {
-        self.system.text(self.system.watches[watch.position()].difference)
+        self.system.text(self.system.watches.at(watch.position()).difference)
     }
 
     /// The transition whose guard reads the watch in the present location, else the rate that does.
     fn watch_span(&self, watch: WatchIndex) -> Option<Span> {
         let reads = |node: NodeId| {
             self.system.graph.dependencies([node]).into_iter().any(|leaf| match leaf {
-                Leaf::Truth(i) => self.system.truths[i.position()].watch == watch,
+                Leaf::Truth(i) => self.system.truths.at(i.position()).watch == watch,
                 Leaf::Stair(i) => {
                     let stair = self.system.stairs[i.position()];
                     stair.lower == watch || stair.upper == watch
@@ -378,7 +378,7 @@ impl Reporter<'_> {
     }
 
     fn watch_sources(&self, watch: WatchIndex) -> Vec<Leaf> {
-        let node = self.system.watches[watch.position()].difference;
+        let node = self.system.watches.at(watch.position()).difference;
         self.system.graph.dependencies([node]).into_iter().collect()
     }
 

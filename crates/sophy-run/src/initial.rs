@@ -27,7 +27,7 @@ pub(crate) fn initial_states(
         if given.is_empty() {
             None
         } else {
-            given.get(system.states[position].name(system).as_str()).copied()
+            given.get(system.states.at(position).name(system).as_str()).copied()
         }
     };
     let states = vec![None; system.states.len()];

@@ -54,8 +54,8 @@ impl Ranges {
 
     /// What is wrong with a value of a state.
     pub(crate) fn refuse(&self, system: &System, state: StateIndex, value: f64) -> Option<String> {
-        let state_of = system.states.get(state.position())?;
-        let Declared { choices, unit, .. } = &*state_of.declared;
+        let Declared { choices, unit, .. } = &*system.states.pattern(state.position()).declared;
+        let name = || system.states.at(state.position()).name(system);
         if !choices.is_empty() {
             let text = |number: usize| system.texts.get(number).map_or("", String::as_str);
             if choices.iter().any(|&choice| choice as f64 == value) {
@@ -63,11 +63,10 @@ impl Ranges {
             }
             let known: Vec<_> = choices.iter().map(|&choice| format!("\"{}\"", text(choice))).collect();
             let value = text(value as usize);
-            let name = state_of.name(system);
-            return Some(format!("`{name}` is \"{value}\", which is none of {{{}}}", known.join(", ")));
+            return Some(format!("`{}` is \"{value}\", which is none of {{{}}}", name(), known.join(", ")));
         }
         let found = self.0.binary_search_by_key(&state, |(state, _)| *state).ok()?;
-        refusal(|| state_of.name(system), value, &self.0.get(found)?.1, unit.as_deref())
+        refusal(name, value, &self.0.get(found)?.1, unit.as_deref())
     }
 }
 
@@ -100,10 +99,11 @@ pub(crate) fn watched<'a>(
     let Allowed::Between(bounds) = range.allowed else { return None };
     let (name, unit) = match &range.of {
         Ranged::State(state) => {
-            system.states.get(state.position()).map(|state| (state.name(system), &state.declared.unit))?
+            let name = system.states.get(state.position())?.name(system);
+            (name, &system.states.pattern(state.position()).declared.unit)
         }
         Ranged::Value { component, declared, .. } => {
-            (system.components.full_name(*component, declared), &declared.unit)
+            (system.components.full_name(*component, &declared.name), &declared.unit)
         }
         Ranged::Parameter(_) => return None,
     };
@@ -161,7 +161,7 @@ pub(crate) fn watch(
         };
         // What reads nothing quantised is uncertain by rounding; what is not affine is not known by its start.
         let affine =
-            |stair: &StairIndex| system.watches[system.stairs[stair.position()].lower.position()].affine;
+            |stair: &StairIndex| system.watches.at(system.stairs[stair.position()].lower.position()).affine;
         let unknown = if range.stairs.iter().all(affine) { 1e-9 } else { 1e-3 };
         *margin = margin.max(own).max(unknown * largest);
     }

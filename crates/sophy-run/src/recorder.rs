@@ -123,7 +123,8 @@ impl Recorder {
         for shown in shown_of(&self.reals, &self.labels) {
             let Real::Output(index) = shown else { continue };
             let Turn { first, copy, .. } = e.outputs[index];
-            let formulas = &e.formulas[first as usize..][..system.nodes(system.outputs[index].value).len()];
+            let formulas =
+                &e.formulas[first as usize..][..system.nodes(system.outputs.at(index).value).len()];
             for source in formulas.iter().flat_map(|formula| sources_of(&formula.reads, copy)) {
                 self.read[source.position()] = true;
             }
@@ -144,7 +145,7 @@ impl Recorder {
             let curved = |&node: &NodeId| !linearity.is_affine(&system.graph, node);
             let moves = |leaf: Leaf| match leaf {
                 Leaf::State(state) => {
-                    let rate = system.states[state.position()].rate;
+                    let rate = system.states.at(state.position()).rate;
                     system.nodes(rate).iter().any(|&node| system.graph.as_number(node) != Some(0.0))
                 }
                 Leaf::Input(_) | Leaf::Time => true,

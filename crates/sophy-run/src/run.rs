@@ -226,10 +226,11 @@ impl Run {
     /// Whether a state that was assigned by the transitions taken since `before` is outside of its range.
     fn range_left(&self, time: f64, before: usize) -> Option<Failure> {
         self.taken.iter().skip(before).find_map(|taken| {
-            let resets = &self.system.transitions.get(taken.transition.position())?.resets;
-            resets.iter().find_map(|reset| {
-                let value = self.engine.value(SourceIndex(reset.state.0), time);
-                let sentence = self.ranges.refuse(&self.system, reset.state, value)?;
+            let (code, copy) = self.compiled.logic.transition(taken.transition);
+            code.resets.iter().find_map(|(state, _)| {
+                let state = StateIndex(state.of(copy));
+                let value = self.engine.value(SourceIndex(state.0), time);
+                let sentence = self.ranges.refuse(&self.system, state, value)?;
                 Some(Failure::of_range(&self.system, taken.transition, time, &sentence))
             })
         })

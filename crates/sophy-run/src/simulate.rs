@@ -224,7 +224,7 @@ fn switch(run: &Run, time: f64, watch: WatchIndex, sign: Sign) -> EventRecord {
         time,
         step: 0,
         component: String::new(),
-        transition: format!("{} < 0", system.text(system.watches[watch.position()].difference)),
+        transition: format!("{} < 0", system.text(system.watches.at(watch.position()).difference)),
         from: (!below).to_string(),
         to: below.to_string(),
     }
@@ -232,13 +232,13 @@ fn switch(run: &Run, time: f64, watch: WatchIndex, sign: Sign) -> EventRecord {
 
 fn event(run: &Run, taken: &Taken) -> EventRecord {
     let system = run.system();
-    let transition = &system.transitions[taken.transition.position()];
-    let automaton = &system.automata[transition.automaton.position()];
+    let transition = system.transitions.at(taken.transition.position());
+    let automaton = system.automata.at(transition.automaton.position());
     EventRecord {
         time: taken.time,
         step: taken.step,
         component: automaton.name(system),
-        transition: transition.name.clone(),
+        transition: transition.name.to_string(),
         from: automaton.kind.locations[transition.source.position()].name.clone(),
         to: automaton.kind.locations[transition.destination.position()].name.clone(),
     }

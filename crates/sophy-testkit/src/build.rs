@@ -71,7 +71,7 @@ impl Build {
             let end = |(component, label): &(usize, String)| EventEnd {
                 member: Some(*component as u32),
                 copy: 0,
-                label: label.clone(),
+                label: label.as_str().into(),
             };
             composite.event_wires.push(EventWire {
                 from: end(from),
@@ -295,7 +295,7 @@ impl Build {
         resets: &[(VariableId, NodeId)],
     ) {
         self.at(from).transitions.push(Transition {
-            name: name.to_owned(),
+            name: name.into(),
             documentation: String::new(),
             span: None,
             trigger,
@@ -320,7 +320,7 @@ impl Build {
     /// The same, only if a condition holds.
     pub fn emit_if(&mut self, from: Place, label: &str, when: Option<NodeId>) {
         if let Some(transition) = self.at(from).transitions.last_mut() {
-            transition.actions.emissions.push(Emission { label: label.to_owned(), when });
+            transition.actions.emissions.push(Emission { label: label.into(), when });
         }
         declare(&mut self.classes[from.component].output_events, label);
     }
@@ -422,7 +422,7 @@ fn actions(assigned: &[(VariableId, NodeId)]) -> Actions {
 }
 
 fn declare(ports: &mut Vec<EventPort>, label: &str) {
-    if !ports.iter().any(|port| port.name == label) {
-        ports.push(EventPort { name: label.to_owned(), documentation: String::new(), span: None });
+    if !ports.iter().any(|port| &*port.name == label) {
+        ports.push(EventPort { name: label.into(), documentation: String::new(), span: None });
     }
 }

@@ -4,15 +4,14 @@ use sophy_field::{AutomatonIndex, LocationIndex, ParameterIndex, StateIndex, Tra
 use sophy_ir::{
     Automaton, AutomatonKind, ClassIndex, Comparison, ComponentIndex, Composite, Declared, FlatLocation,
     FlatReset, FlatTransition, FlatTrigger, Graph, Leaf, Member, Members, NodeId, Origin, Parameter,
-    Quantity, Role, Row, State, System, Unary, VariableId,
+    Quantity, Role, Row, Shared, State, System, Unary, VariableId,
 };
-use std::sync::Arc;
 
 /// Nothing was written.
 const ORIGIN: Origin = Origin { class: ClassIndex(0), variable: VariableId(0) };
 
-fn declared(name: &str) -> Arc<Declared> {
-    Arc::new(Declared {
+fn declared(name: &str) -> Shared<Declared> {
+    Shared::new(Declared {
         name: name.to_owned(),
         unit: None,
         quantity: Quantity::Real,
@@ -22,10 +21,10 @@ fn declared(name: &str) -> Arc<Declared> {
     })
 }
 
-fn state(component: u32, declared: &Arc<Declared>, initial: NodeId, rate: Row) -> State {
+fn state(component: u32, declared: &Shared<Declared>, initial: NodeId, rate: Row) -> State {
     State {
         component: ComponentIndex(component),
-        declared: Arc::clone(declared),
+        declared: declared.clone(),
         discrete: false,
         initial: Some(initial),
         sign_of: None,
@@ -100,7 +99,7 @@ pub fn ring(count: usize, events: bool) -> System {
     let names = &["rest", "busy"][..if events { 2 } else { 1 }];
     let outgoing = |l: u32| if events { vec![l] } else { Vec::new() };
     let locations = (0..).zip(names);
-    let kind = Arc::new(AutomatonKind {
+    let kind = Shared::new(AutomatonKind {
         role: Role::Component,
         locations: locations
             .map(|(l, name)| FlatLocation { name: (*name).to_owned(), transitions: outgoing(l) })
@@ -152,7 +151,7 @@ pub fn ring(count: usize, events: bool) -> System {
         }
         system.automata.push(Automaton {
             component: ComponentIndex(cell as u32 + 1),
-            kind: Arc::clone(&kind),
+            kind: kind.clone(),
             first: TransitionIndex::new(system.transitions.len()),
         });
         if events {
@@ -171,7 +170,7 @@ fn transitions(system: &mut System, automaton: AutomatonIndex, v: NodeId, w: Nod
     let ways = [("fire", 0, above, vec![reset]), ("calm", 1, below, Vec::new())];
     for (name, source, guard, resets) in ways {
         system.transitions.push(FlatTransition {
-            name: name.to_owned(),
+            name: name.into(),
             automaton,
             source: LocationIndex(source),
             destination: LocationIndex(1 - source),
@@ -200,7 +199,7 @@ pub fn distinct(count: usize) -> System {
     }
     let location = FlatLocation { name: "all".to_owned(), transitions: Vec::new() };
     let (locations, initial, role) = (vec![location], LocationIndex(0), Role::Component);
-    let kind = Arc::new(AutomatonKind { role, locations, initial });
+    let kind = Shared::new(AutomatonKind { role, locations, initial });
     system.automata.push(Automaton { component: ComponentIndex(0), kind, first: TransitionIndex(0) });
     system
 }

@@ -254,7 +254,7 @@ fn zeno(accumulation: &Accumulation, system: &System) -> Diagnostic {
     let Accumulation { limit, last, ratio, cycle } = accumulation;
     let message = format!("transitions accumulate at t = {limit} s: infinitely many before it (Zeno)");
     let mut diagnostic = nowhere("SR0101", message);
-    let transitions = || cycle.iter().map(|transition| &system.transitions[transition.position()]);
+    let transitions = || cycle.iter().map(|transition| system.transitions.at(transition.position()));
     diagnostic.labels = transitions()
         .next()
         .and_then(|transition| transition.span)

@@ -15,7 +15,7 @@ pub(crate) fn port(name: &Spanned<String>, component: Option<&str>, interface: &
         .ports
         .iter()
         .map(|port| port.name.as_str())
-        .chain(events.map(|event| event.name.as_str()))
+        .chain(events.map(|event| &*event.name))
         .collect();
     let help = suggest(&name.value, &ports, "ports").help;
     let message = match component {

@@ -588,7 +588,7 @@ fn finished_location(built: BuiltLocation<'_>) -> Option<Location> {
         }
         for trigger in built.trigger {
             transitions.push(Transition {
-                name: written.name.value.clone(),
+                name: written.name.value.as_str().into(),
                 documentation: written.documentation.clone(),
                 span: Some(written.name.span),
                 trigger,

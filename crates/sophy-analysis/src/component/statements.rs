@@ -280,7 +280,7 @@ impl<'a> Builder<'_, 'a> {
             self.report(hs0132_unknown_event::emitted(label, self.declaration, true));
             return;
         }
-        doing.emissions.push(Emission { label: label.value.clone(), when: doing.when });
+        doing.emissions.push(Emission { label: label.value.as_str().into(), when: doing.when });
     }
 
     fn hold(&mut self, flag: &'a Spanned<String>, doing: &mut Doing<'_>) {

@@ -48,7 +48,7 @@ impl Interface {
     /// Whether a port has this name.
     pub(crate) fn has(&self, name: &str) -> bool {
         let mut events = self.input_events.iter().chain(&self.output_events).chain(&self.synchronised);
-        self.ports.iter().any(|port| port.name == name) || events.any(|event| event.name == name)
+        self.ports.iter().any(|port| port.name == name) || events.any(|event| &*event.name == name)
     }
 }
 
@@ -160,7 +160,7 @@ impl<'a> Builder<'_, 'a> {
         }
         let ports = |labels: BTreeMap<&str, Span>| -> Vec<EventPort> {
             let port = |(name, span): (&str, Span)| EventPort {
-                name: name.to_owned(),
+                name: name.into(),
                 documentation: String::new(),
                 span: Some(span),
             };
@@ -527,7 +527,7 @@ impl<'a> Builder<'_, 'a> {
             return;
         }
         let event = EventPort {
-            name: name.value.clone(),
+            name: name.value.as_str().into(),
             documentation: port.documentation.clone(),
             span: Some(name.span),
         };

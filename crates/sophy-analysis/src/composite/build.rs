@@ -4,9 +4,10 @@ use super::members::{Members, expand_members};
 use crate::checks::{hs0127_declaration_for_another_kind, hs0414_not_connected};
 use crate::component::{Builder, Built, Given, Interface, Shared};
 use crate::declarations::{ComponentDeclaration, ComponentKind, Direction};
-use sophy_ir::{Body, Composite};
+use sophy_ir::{Body, Composite, EventEnd};
 use std::collections::HashSet;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Analyses a composite: its members, each with its class, and what connects them.
 pub(crate) fn build_composite<'a>(
@@ -79,15 +80,15 @@ fn check_events_connected(
     interface: &Interface,
     composite: &Composite,
 ) {
-    let sent: HashSet<(Option<u32>, u32, &str)> = composite
-        .event_wires
-        .iter()
-        .map(|wire| (wire.to.member, wire.to.copy, wire.to.label.as_str()))
-        .collect();
+    let sent: HashSet<EventEnd> = composite.event_wires.iter().map(|wire| wire.to).collect();
+    let is_sent = |member: Option<usize>, copy: u32, label: &Arc<str>| {
+        let member = member.map(|member| member as u32);
+        sent.contains(&EventEnd { member, copy, label: Arc::clone(label) })
+    };
     for (position, member) in members.list.iter().enumerate() {
         let copies: u32 = member.extents.iter().product();
         for event in &members.entries[position].interface.input_events {
-            let is_open = |&copy: &u32| !sent.contains(&(Some(position as u32), copy, event.name.as_str()));
+            let is_open = |&copy: &u32| !is_sent(Some(position), copy, &event.name);
             if let (Some(copy), Some(declared)) = ((0..copies).find(is_open), event.span.or(member.span)) {
                 let name = members.full_name(position, copy);
                 let span = member.span.unwrap_or(declared);
@@ -96,7 +97,7 @@ fn check_events_connected(
         }
     }
     for event in &interface.output_events {
-        if let Some(span) = event.span.filter(|_| !sent.contains(&(None, 0, event.name.as_str()))) {
+        if let Some(span) = event.span.filter(|_| !is_sent(None, 0, &event.name)) {
             builder.report(hs0414_not_connected::event_output(&event.name, span));
         }
     }

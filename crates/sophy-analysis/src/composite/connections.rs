@@ -101,7 +101,7 @@ fn connect_one<'a>(
             let end = |end: &End, label: &str| EventEnd {
                 member: end.member.map(|member| member as u32),
                 copy: end.copy,
-                label: label.to_owned(),
+                label: label.into(),
             };
             let wire = EventWire {
                 from: end(&source, from_label),
@@ -199,7 +199,7 @@ fn add_event_wire(builder: &mut Builder<'_, '_>, wire: EventWire, at: Span, wiri
     let first = wiring.joined.get(&there).or_else(|| wiring.joined.get(&back).filter(|_| wire.synchronised));
     if let Some(&first) = first {
         let name = |end: &EventEnd| match end.member {
-            None => end.label.clone(),
+            None => end.label.to_string(),
             Some(member) => {
                 format!("{}.{}", wiring.members.full_name(member as usize, end.copy), end.label)
             }
@@ -353,7 +353,7 @@ fn port_end<'a>(
         (&interface.synchronised, Direction::Synchronised),
     ];
     for (labels, direction) in events {
-        if labels.iter().any(|label| label.name == name.value) {
+        if labels.iter().any(|label| *label.name == name.value) {
             return Some(EndKind::Event { label: name.value.clone(), direction });
         }
     }

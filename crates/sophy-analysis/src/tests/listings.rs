@@ -171,7 +171,7 @@ fn a_transition_with_guard_and_events_becomes_two() {
     );
     let component = crate::testing::automaton(&model);
     let labels =
-        |ports: &[sophy_ir::EventPort]| -> Vec<String> { ports.iter().map(|p| p.name.clone()).collect() };
+        |ports: &[sophy_ir::EventPort]| -> Vec<String> { ports.iter().map(|p| p.name.to_string()).collect() };
     assert_eq!(labels(&model.root().input_events), ["a", "b", "c"]);
     assert_eq!(labels(&model.root().output_events), ["done"]);
     let shown: Vec<String> = component.locations[0]

@@ -7,10 +7,9 @@ use super::events::Routes;
 use sophy_field::{AutomatonIndex, LocationIndex, StateIndex, TransitionIndex};
 use sophy_ir::{
     Actions, Automaton, AutomatonKind, Body, Class, Comparison, ComponentIndex, EventSection, FlatEmission,
-    FlatLocation, FlatReset, FlatTransition, FlatTrigger, HybridAutomaton, Leaf, Node, Role, Trigger,
+    FlatLocation, FlatReset, FlatTransition, FlatTrigger, HybridAutomaton, Leaf, Node, Role, Shared, Trigger,
     VariableId,
 };
-use std::sync::Arc;
 
 /// The sides of a flag, as locations.
 const NEGATIVE: LocationIndex = LocationIndex(0);
@@ -45,7 +44,7 @@ impl<'a> Flattener<'a> {
         self.automaton_of[instance as usize] < Some(AutomatonIndex::new(self.system.automata.len()))
     }
 
-    fn component(&mut self, instance: u32, automaton: &'a HybridAutomaton, routes: &Routes<'a>) {
+    fn component(&mut self, instance: u32, automaton: &'a HybridAutomaton, routes: &Routes) {
         let owner = self.owner(instance);
         let first = self.system.transitions.len();
         for (source, location) in automaton.locations.iter().enumerate() {
@@ -88,7 +87,7 @@ impl<'a> Flattener<'a> {
         names: impl Iterator<Item = &'n str>,
         (role, initial): (Role, LocationIndex),
     ) {
-        let own = &self.system.transitions[first..];
+        let own = &self.system.transitions.unfinished()[first..];
         let make = || {
             let mut locations: Vec<_> =
                 names.map(|name| FlatLocation { name: name.to_owned(), transitions: Vec::new() }).collect();
@@ -98,10 +97,10 @@ impl<'a> Flattener<'a> {
             for location in &mut locations {
                 location.transitions.sort_by_key(|&transition| own[transition as usize].priority);
             }
-            Arc::new(AutomatonKind { role, locations, initial })
+            Shared::new(AutomatonKind { role, locations, initial })
         };
         let key = (self.tree.instance(instance).class, number);
-        let kind = Arc::clone(self.kinds.entry(key).or_insert_with(make));
+        let kind = self.kinds.entry(key).or_insert_with(make).clone();
         let (component, first) = (ComponentIndex(instance), TransitionIndex::new(first));
         self.system.automata.push(Automaton { component, kind, first });
     }
@@ -116,7 +115,7 @@ impl<'a> Flattener<'a> {
         instance: u32,
         class: &'a Class,
         (number, section): (usize, &'a EventSection),
-        routes: &Routes<'a>,
+        routes: &Routes,
     ) {
         let context = self.context(instance, None);
         let automaton = AutomatonIndex::new(self.system.automata.len());
@@ -136,7 +135,7 @@ impl<'a> Flattener<'a> {
                 None => (Vec::new(), Vec::new()),
             };
             self.system.transitions.push(FlatTransition {
-                name: format!("{name} {direction}"),
+                name: format!("{name} {direction}").into(),
                 automaton,
                 source,
                 destination,
@@ -157,7 +156,7 @@ impl<'a> Flattener<'a> {
         context: Context,
         instance: u32,
         actions: &'a Actions,
-        routes: &Routes<'a>,
+        routes: &Routes,
     ) -> (Vec<FlatReset>, Vec<FlatEmission>) {
         let mut resets = Vec::with_capacity(actions.assignments.len());
         for assignment in &actions.assignments {

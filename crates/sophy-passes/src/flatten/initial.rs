@@ -12,7 +12,7 @@ impl Flattener<'_> {
     pub(super) fn modes_of(&mut self, instance: u32, actions: Option<&Actions>, flag: NodeId) {
         for assignment in actions.into_iter().flat_map(|actions| &actions.assignments) {
             let Some(index) = self.state_of(instance, assignment.variable) else { continue };
-            let state = &mut self.system.states[index.position()];
+            let state = &mut self.system.states.unfinished()[index.position()];
             if state.discrete && state.initial.is_none() {
                 let only = self.flag_of.entry(index).or_insert(Some(flag));
                 *only = only.filter(|&other| other == flag);
@@ -73,7 +73,7 @@ impl Flattener<'_> {
                     let start = pending.iter().position(|&other| other == next).unwrap_or(0);
                     let circle = pending[start..].iter().filter(|&&p| open[p]);
                     let name =
-                        |&p: &usize| self.system.states[written[p].state.position()].name(&self.system);
+                        |&p: &usize| self.system.states.at(written[p].state.position()).name(&self.system);
                     return Err(FlattenError::InitialLoop(circle.map(name).collect()));
                 } else {
                     pending.extend(missing);
@@ -93,7 +93,7 @@ impl Flattener<'_> {
                     found.insert(state);
                 }
                 Leaf::Algebraic(z) if seen.insert(z) => {
-                    let row = self.system.algebraics[z.position()].plain;
+                    let row = self.system.algebraics.at(z.position()).plain;
                     pending.extend(self.system.graph.dependencies(self.system.nodes(row).iter().copied()));
                 }
                 _ => {}

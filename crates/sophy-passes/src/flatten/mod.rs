@@ -27,10 +27,9 @@ use copy::Scratch;
 use facts::Facts;
 use sophy_field::{AutomatonIndex, StateIndex};
 use sophy_ir::{
-    AutomatonKind, Class, ClassIndex, Declared, Model, NodeId, Origin, Quantity, System, VariableId,
+    AutomatonKind, Class, ClassIndex, Declared, Model, NodeId, Origin, Quantity, Shared, System, VariableId,
 };
 use std::collections::HashMap;
-use std::sync::Arc;
 use tables::Columns;
 use tree::Tree;
 
@@ -72,11 +71,11 @@ struct Flattener<'a> {
     /// Per instance that has input events: the first of them.
     first_event: Vec<u32>,
     /// Per class, per variable: what was declared.
-    declared: Vec<Vec<Arc<Declared>>>,
+    declared: Vec<Vec<Shared<Declared>>>,
     /// What stands for `location_index` where others see it.
-    location_index: Arc<Declared>,
+    location_index: Shared<Declared>,
     /// What the automata of a class have in common: that of its locations, then those of its event sections.
-    kinds: HashMap<(ClassIndex, usize), Arc<AutomatonKind>>,
+    kinds: HashMap<(ClassIndex, usize), Shared<AutomatonKind>>,
     /// Per class: where its spans begin, once they are known.
     first_span: Vec<Option<u32>>,
     /// Per class: what was copied last.
@@ -94,8 +93,8 @@ struct Flattener<'a> {
 
 impl<'a> Flattener<'a> {
     /// What was declared of a variable.
-    fn declared(&self, class: ClassIndex, id: VariableId) -> Arc<Declared> {
-        Arc::clone(&self.declared[class.0 as usize][id.0 as usize])
+    fn declared(&self, class: ClassIndex, id: VariableId) -> Shared<Declared> {
+        self.declared[class.0 as usize][id.0 as usize].clone()
     }
 
     fn new(tree: &'a Tree<'a>) -> Self {
@@ -112,7 +111,7 @@ impl<'a> Flattener<'a> {
                 .zip(&model.classes)
                 .map(|(index, class)| declared(index, class))
                 .collect(),
-            location_index: Arc::new(Declared {
+            location_index: Shared::new(Declared {
                 name: "location_index".to_owned(),
                 unit: None,
                 quantity: Quantity::Integer,
@@ -140,10 +139,10 @@ impl<'a> Flattener<'a> {
 }
 
 /// What was declared of the variables of a class.
-fn declared(index: ClassIndex, class: &Class) -> Vec<Arc<Declared>> {
+fn declared(index: ClassIndex, class: &Class) -> Vec<Shared<Declared>> {
     let variables = (0..).map(VariableId).zip(&class.variables);
     let declared = variables.map(|(id, variable)| {
-        Arc::new(Declared {
+        Shared::new(Declared {
             name: variable.name.clone(),
             unit: variable.unit.clone(),
             quantity: variable.quantity,

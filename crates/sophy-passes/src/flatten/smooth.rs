@@ -11,12 +11,12 @@ pub(super) fn confine_smooth(model: &Model, system: &mut System) {
         return;
     }
     let mut bare = Bare { graph: &mut system.graph, known: HashMap::new() };
-    for z in &system.algebraics {
+    for z in system.algebraics.iter() {
         for row in [z.value, z.plain] {
             system.rows[row.range()].iter_mut().for_each(|node| bare.strip(node));
         }
     }
-    for transition in &mut system.transitions {
+    for transition in system.transitions.unfinished() {
         match &mut transition.trigger {
             FlatTrigger::When(guard) => bare.strip(guard),
             FlatTrigger::On { guard, .. } => guard.iter_mut().for_each(|guard| bare.strip(guard)),

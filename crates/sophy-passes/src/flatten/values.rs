@@ -8,10 +8,9 @@ use super::{FlattenError, Flattener, LoopEquation};
 use sophy_diagnostics::Span;
 use sophy_field::AlgebraicIndex;
 use sophy_ir::{
-    Algebraic, Body, ClassIndex, ComponentIndex, Declared, Leaf, NodeId, Output, Row, Sources, State,
+    Algebraic, Body, ClassIndex, ComponentIndex, Declared, Leaf, NodeId, Output, Row, Shared, Sources, State,
     VariableId, VariableKind, Wire,
 };
-use std::sync::Arc;
 
 /// A slot of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,7 +133,7 @@ impl<'a> Flattener<'a> {
                 let initial = initial.map(|node| self.number(outside, node));
                 let spans = self.spans_of(at.class) + (k * facts.locations) as u32;
                 let rate = self.system.row(self.owner(instance), &nodes, spans);
-                let state: &mut State = &mut self.system.states[next];
+                let state: &mut State = &mut self.system.states.unfinished()[next];
                 state.rate = rate;
                 state.initial = initial;
                 next += 1;
@@ -257,7 +256,7 @@ impl<'a> Flattener<'a> {
         nodes: &[NodeId],
         spans: u32,
         instance: u32,
-        declared: Arc<Declared>,
+        declared: Shared<Declared>,
     ) -> NodeId {
         match nodes.first() {
             Some(&only) if nodes.iter().all(|&node| node == only) => only,
@@ -279,7 +278,7 @@ impl<'a> Flattener<'a> {
         }
         let locations = 1..=self.tree.facts(instance).locations;
         let nodes: Vec<NodeId> = locations.map(|n| self.system.graph.number(n as f64)).collect();
-        let declared = Arc::clone(&self.location_index);
+        let declared = self.location_index.clone();
         let node = self.seen_from_outside(&nodes, Row::NOWHERE, instance, declared);
         self.location_numbers.insert(instance, node);
         node

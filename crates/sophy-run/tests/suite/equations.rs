@@ -212,8 +212,8 @@ impl Case {
             Leaf::Time => Value::Real(sources[3]),
             Leaf::Parameter(i) => Value::Real(self.point.parameters[i.position()]),
             Leaf::Truth(i) => {
-                let truth = self.system.truths[i.position()];
-                let watch = &self.system.watches[truth.watch.position()];
+                let truth = self.system.truths.at(i.position());
+                let watch = self.system.watches.at(truth.watch.position());
                 let (left, right) = (self.value(watch.left, sources), self.value(watch.right, sources));
                 Value::Boolean(truth.comparison.holds(left, right))
             }
@@ -249,13 +249,13 @@ impl Case {
     /// All formulas read by guards and outputs whose reference is a node of the system.
     fn formulas(&self) -> Vec<((&Formula, u32), NodeId)> {
         let e = &self.compiled.equations;
-        let watches = (0..).map(WatchIndex).zip(&self.system.watches);
+        let watches = (0..).map(WatchIndex).zip(self.system.watches.iter());
         watches
             .map(|(index, watch)| {
                 let (code, copy) = e.watch(index);
                 ((&code.formula, copy), watch.difference)
             })
-            .chain([(e.output(0, &HERE), self.system.nodes(self.system.outputs[0].value)[0])])
+            .chain([(e.output(0, &HERE), self.system.nodes(self.system.outputs.at(0).value)[0])])
             .collect()
     }
 
@@ -344,7 +344,7 @@ proptest! {
             }
         }
         for state in 0..2 {
-            let node = case.system.nodes(case.system.states[state].rate)[0];
+            let node = case.system.nodes(case.system.states.at(state).rate)[0];
             let expected = case.value(node, &point.sources);
             for orders in 1..=WIDTH {
                 let [value, ..] = case.rate(state, &mut case.memory(&jets), orders);
@@ -357,8 +357,8 @@ proptest! {
     #[test]
     fn lifted_rates_have_the_value_as_written(steps in steps(24), point in tame_point()) {
         let case = case(&steps, point, true);
-        let written = case.value(case.system.nodes(case.system.outputs[0].value)[0], &point.sources);
-        let lifted = case.value(case.system.nodes(case.system.states[0].rate)[0], &point.sources);
+        let written = case.value(case.system.nodes(case.system.outputs.at(0).value)[0], &point.sources);
+        let lifted = case.value(case.system.nodes(case.system.states.at(0).rate)[0], &point.sources);
         prop_assert!(written == lifted, "{written} {lifted}");
     }
 
@@ -372,7 +372,7 @@ proptest! {
         let case = case(&steps, point, true);
         let jets = jets(&point, &motion, 0.0);
         // The motion written into the expression: z(t₀ + s) as a function of s.
-        let root = case.system.nodes(case.system.outputs[0].value)[0];
+        let root = case.system.nodes(case.system.outputs.at(0).value)[0];
         let mut graph = Graph::default();
         let s = graph.leaf(Leaf::Time);
         let moved = graph.import(&case.system.graph, root, &mut |graph, leaf| {

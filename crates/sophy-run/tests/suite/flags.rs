@@ -360,7 +360,7 @@ fn smooth_switches_are_no_events() {
     b.when(low, "up", over, high, &[]);
     b.when(high, "down", under, low, &[]);
     let system = lower(&b.model()).unwrap();
-    let rate = system.text(system.nodes(system.states[0].rate)[0]);
+    let rate = system.text(system.nodes(system.states.at(0).rate)[0]);
     assert_eq!(rate, "smooth(abs(sin(time)))");
     let result = run(&b.model(), &Experiment { all_events: true, ..to(6.0, 1e-4) });
     let sixth = std::f64::consts::PI / 6.0;

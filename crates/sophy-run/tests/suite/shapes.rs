@@ -31,7 +31,7 @@ fn play(system: &System, sharing: Sharing, until: f64) -> Trace {
     let mut engine: Box<dyn Engine> = Box::new(Qss2::new(&equations, settings));
     let mut control = Control::new(&logic);
     let (mut journal, mut taken) = (Journal::default(), Vec::new());
-    let initial = |s: &sophy_ir::State| {
+    let initial = |s: sophy_ir::State| {
         evaluate(&system.graph, s.initial.expect("given"), &mut |_| Value::Real(f64::NAN)).real()
     };
     let states: Vec<f64> = system.states.iter().map(initial).collect();

@@ -5,6 +5,7 @@ use sophy_ir::{
     NodeId, Quantity, Role, Rule, System, Transition, VariableId,
 };
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// A hybrid automaton, once for all copies.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -70,7 +71,7 @@ pub struct Reaction {
 }
 
 pub(super) fn automata(model: &Model, census: &Census, system: &System) -> Vec<AutomatonDescription> {
-    let flat: HashMap<String, &Automaton> = system
+    let flat: HashMap<String, Automaton> = system
         .automata
         .iter()
         .filter(|automaton| automaton.kind.role == Role::Component)
@@ -90,7 +91,7 @@ pub(super) fn automata(model: &Model, census: &Census, system: &System) -> Vec<A
             class,
             texts: &model.texts,
             automaton,
-            flat: flat.get(of_class.instance.as_str()).copied(),
+            flat: flat.get(of_class.instance.as_str()),
             system,
         };
         found.push(AutomatonDescription {
@@ -141,12 +142,12 @@ impl Text<'_> {
     }
 
     /// Name and destination of the transitions of a location that can be run: whether they are affine.
-    fn affine(&self, location: usize) -> HashMap<(&str, usize), bool> {
+    fn affine(&self, location: usize) -> HashMap<(Arc<str>, usize), bool> {
         let location = sophy_field::LocationIndex::new(location);
         let transitions = self.flat.into_iter().flat_map(|automaton| automaton.outgoing(location));
         let known = transitions.filter_map(|index| self.system.transitions.get(index.position()));
         let known = known.map(|transition| {
-            let key = (transition.name.as_str(), transition.destination.position());
+            let key = (transition.name, transition.destination.position());
             (key, is_affine(self.system, transition.trigger.guard()))
         });
         known.collect()
@@ -155,17 +156,17 @@ impl Text<'_> {
     fn transition(
         &self,
         transition: &Transition,
-        affine: &HashMap<(&str, usize), bool>,
+        affine: &HashMap<(Arc<str>, usize), bool>,
     ) -> TransitionDescription {
         let emission = |e: &sophy_ir::Emission| match e.when {
             Some(when) => format!("{} if {}", e.label, self.text(when)),
-            None => e.label.clone(),
+            None => e.label.to_string(),
         };
         TransitionDescription {
-            name: transition.name.clone(),
+            name: transition.name.to_string(),
             to: self.location_name(transition.destination),
             trigger: self.class.trigger_with(&transition.trigger, &|node| self.text(node)),
-            affine: affine.get(&(transition.name.as_str(), transition.destination)).copied(),
+            affine: affine.get(&(Arc::clone(&transition.name), transition.destination)).copied(),
             resets: self.resets(&transition.actions),
             emits: transition.actions.emissions.iter().map(emission).collect(),
             priority: transition.priority,
@@ -224,7 +225,7 @@ impl Text<'_> {
 
 fn is_affine(system: &System, guard: Option<NodeId>) -> bool {
     system.graph.dependencies(guard).into_iter().all(|leaf| match leaf {
-        Leaf::Truth(truth) => system.watches[system.truths[truth.position()].watch.position()].affine,
+        Leaf::Truth(truth) => system.watches.at(system.truths.at(truth.position()).watch.position()).affine,
         _ => true,
     })
 }

@@ -56,7 +56,8 @@ pub(super) type Reads = Vec<Leaf>;
 
 impl<'a> Coupling<'a> {
     pub(super) fn new(system: &'a System) -> Self {
-        let states: Vec<usize> = (0..system.states.len()).filter(|&x| !system.states[x].discrete).collect();
+        let states: Vec<usize> =
+            (0..system.states.len()).filter(|&x| !system.states.at(x).discrete).collect();
         let mut column = vec![None; system.states.len()];
         for (position, &state) in states.iter().enumerate() {
             column[state] = Some(position);
@@ -69,7 +70,7 @@ impl<'a> Coupling<'a> {
         let mut search = Search::new(self.system);
         let mut rows = Vec::with_capacity(self.states.len());
         for &state in &self.states {
-            let row = self.system.states[state].rate;
+            let row = self.system.states.at(state).rate;
             let nodes = self.system.nodes(row);
             let all = search.reads(nodes);
             let each = if self.system.is_constant(row) {
@@ -90,10 +91,10 @@ impl<'a> Coupling<'a> {
             reads.iter().map(|&leaf| self.system.leaf_name(leaf)).collect()
         };
         let described = self.states.iter().zip(rows).map(|(&state, (all, each))| {
-            let state = &self.system.states[state];
+            let state = self.system.states.at(state);
             let differs = each.windows(2).any(|pair| pair[0] != pair[1]);
             let owner = self.system.automata.get(state.rate.owner.position());
-            let locations = owner.map_or(&[][..], |owner| &owner.kind.locations);
+            let locations = owner.as_ref().map_or(&[][..], |owner| &owner.kind.locations);
             let by_location = locations.iter().zip(each).filter(|_| differs);
             Dependency {
                 state: state.name(self.system),
@@ -148,11 +149,11 @@ impl<'a> Coupling<'a> {
                 })
                 .collect()
         };
-        let rates = self.states.iter().map(|&state| system.states[state].rate);
+        let rates = self.states.iter().map(|&state| system.states.at(state).rate);
         let rows = rates.chain(system.algebraics.iter().map(|z| z.value));
         let arcs: Vec<Vec<usize>> = rows.map(&mut reads).collect();
         let name = |node: usize| match self.states.get(node) {
-            Some(&state) => system.states[state].name(system),
+            Some(&state) => system.states.at(state).name(system),
             None => system.algebraics.get(node - first_algebraic).map(|z| z.name(system)).unwrap_or_default(),
         };
         let mut knots: Vec<Vec<usize>> =
@@ -205,8 +206,9 @@ impl<'a> Search<'a> {
                 Node::Leaf(Leaf::Algebraic(z)) if through => {
                     let seen = std::mem::replace(&mut self.algebraics[z.position()], self.mark);
                     if seen != self.mark {
-                        pending
-                            .extend_from_slice(self.system.nodes(self.system.algebraics[z.position()].value));
+                        pending.extend_from_slice(
+                            self.system.nodes(self.system.algebraics.at(z.position()).value),
+                        );
                     }
                 }
                 Node::Leaf(leaf @ (Leaf::State(_) | Leaf::Input(_) | Leaf::Time | Leaf::Algebraic(_))) => {

@@ -104,11 +104,11 @@ pub fn describe(model: &Model) -> Result<Description, Error> {
     Ok(Description {
         name: model.name().to_owned(),
         documentation: model.classes.get(model.root.0 as usize).map_or("", |c| &c.documentation).to_owned(),
-        states: states(false).map(|state| values.state(state)).collect(),
-        modes: states(true).map(|state| values.state(state)).collect(),
+        states: states(false).map(|state| values.state(&state)).collect(),
+        modes: states(true).map(|state| values.state(&state)).collect(),
         inputs: system.inputs.iter().map(|input| values.input(input)).collect(),
-        outputs: outputs(false).map(|output| values.output(output)).collect(),
-        views: outputs(true).map(|output| values.output(output)).collect(),
+        outputs: outputs(false).map(|output| values.output(&output)).collect(),
+        views: outputs(true).map(|output| values.output(&output)).collect(),
         constants: values.constants(),
         automata: automata(model, &census, &system),
         clocks: clocks(model, &census, &values),
@@ -124,8 +124,9 @@ pub fn describe(model: &Model) -> Result<Description, Error> {
 }
 
 fn watches(system: &System) -> Vec<WatchDescription> {
-    let text = |watch: &sophy_ir::Watch| system.text(watch.difference);
-    system.watches.iter().map(|w| WatchDescription { quantity: text(w), affine: w.affine }).collect()
+    let described =
+        |w: sophy_ir::Watch| WatchDescription { quantity: system.text(w.difference), affine: w.affine };
+    system.watches.iter().map(described).collect()
 }
 
 fn sizes(model: &Model, census: &Census, system: &System) -> Sizes {

@@ -143,7 +143,7 @@ impl Drawing<'_> {
             above.push(format!("priority {}", transition.priority));
         }
         below.extend(self.actions(&transition.actions));
-        let name = if transition.name.is_empty() { "transition" } else { transition.name.as_str() };
+        let name = if transition.name.is_empty() { "transition" } else { &transition.name };
         let mut tip =
             format!("{name}: {}", above.iter().chain(&below).cloned().collect::<Vec<_>>().join("; "));
         if !transition.documentation.is_empty() {

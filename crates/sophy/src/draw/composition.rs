@@ -16,7 +16,7 @@ pub(super) fn composition(model: &Model, class: &Class, composite: &Composite) -
                 .for_each(|(weight, from)| drawing.wire(from, &wire.to, *weight)),
         }
     }
-    for wire in &composite.event_wires {
+    for wire in composite.event_wires.iter() {
         drawing.event_wire(&wire.from, &wire.to);
     }
     drawing.finish()
