@@ -1,12 +1,12 @@
 use crate::error::HybridError;
 use crate::livelock::Livelock;
+use crate::queues::Queues;
 use crate::worklist::Worklist;
 use crate::zeno::{Accumulation, Zeno};
 use sophy_field::{
     AutomatonIndex, Changes, Engine, Equations, EventIndex, Guard, Journal, LocationIndex, Logic, Record,
     StateIndex, TransitionCode, TransitionIndex, TriggerCode, WatchIndex,
 };
-use std::collections::VecDeque;
 
 /// One transition taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,12 +45,12 @@ pub struct Counts {
 #[derive(Clone, Debug)]
 pub struct Control {
     /// Events waiting, per automaton (of none where nobody receives events), and the automata for which some wait.
-    queues: Vec<VecDeque<EventIndex>>,
+    queues: Queues,
     waiting: Worklist,
     /// Automata whose guards must be looked at.
     stale: Worklist,
-    /// Per automaton; of none where there are no transitions.
-    zeno: Vec<Zeno>,
+    /// Of all automata; of none where there are no transitions.
+    zeno: Zeno,
     /// Watches that changed, transitions of a micro-step, and what they change; kept for their memory.
     changed: Vec<WatchIndex>,
     chosen: Vec<TransitionIndex>,
@@ -72,10 +72,10 @@ impl Control {
         let automata = logic.first_location.len();
         let of_all = |needed: bool| if needed { automata } else { 0 };
         Control {
-            queues: vec![VecDeque::new(); of_all(!logic.receivers.is_empty())],
+            queues: Queues::new(of_all(!logic.receivers.is_empty())),
             waiting: Worklist::empty(automata),
             stale: Worklist::full(automata),
-            zeno: vec![Zeno::default(); of_all(!logic.transitions.is_empty())],
+            zeno: Zeno::new(of_all(!logic.transitions.is_empty())),
             changed: Vec::new(),
             chosen: Vec::new(),
             emitted: Vec::new(),
@@ -92,7 +92,7 @@ impl Control {
     /// An event from outside, delivered by the next [`Control::react`].
     pub fn post(&mut self, logic: &Logic, event: EventIndex) {
         let receiver = logic.receivers[event.position()];
-        self.queues[receiver.position()].push_back(event);
+        self.queues.push(receiver, event);
         self.waiting.insert(receiver);
     }
 
@@ -170,7 +170,7 @@ impl Control {
                 taken.push(Taken { time: t, step, transition });
                 self.stale.insert(automaton);
                 self.counts.transitions += 1;
-                let zeno = self.zeno[automaton.position()].taken(t, transition);
+                let zeno = self.zeno.taken(automaton, t, transition);
                 accumulation = accumulation.or(zeno);
             }
             step += 1;
@@ -278,7 +278,7 @@ impl Control {
         unheard.clear();
         answers.clear();
         self.waiting.retain(|automaton| {
-            let Some(&event) = queues[automaton.position()].front() else { return false };
+            let Some(event) = queues.front(automaton) else { return false };
             let location = engine.locations()[automaton.position()];
             let outgoing = logic.outgoing(automaton, location).iter().copied();
             let mut listening = outgoing.filter_map(|transition| match logic.transition(transition) {
@@ -308,7 +308,7 @@ impl Control {
         let any = !(unheard.is_empty() && answers.is_empty());
         let unheard = unheard.iter().map(|&automaton| (automaton, None));
         for (automaton, answer) in unheard.chain(answers.iter().copied()) {
-            self.queues[automaton.position()].pop_front();
+            self.queues.pop(automaton);
             match answer {
                 Some(transition) => self.chosen.push(transition),
                 None => self.counts.unused_events += 1,

@@ -10,6 +10,7 @@
 mod control;
 mod error;
 mod livelock;
+mod queues;
 mod worklist;
 mod zeno;
 

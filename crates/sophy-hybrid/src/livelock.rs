@@ -1,6 +1,6 @@
 use crate::control::Taken;
-use sophy_field::{Changes, Engine, Equations, EventIndex, LocationIndex, SourceIndex, TransitionIndex};
-use std::collections::VecDeque;
+use crate::queues::Queues;
+use sophy_field::{Changes, Engine, Equations, LocationIndex, SourceIndex, TransitionIndex};
 
 /// Finds a round of micro-steps that returns exactly to where it began (Brent's algorithm: compare with a
 /// state kept at the last power of two).
@@ -26,7 +26,7 @@ impl Livelock {
         engine: &dyn Engine,
         e: &Equations,
         t: f64,
-        waiting: &[VecDeque<EventIndex>],
+        waiting: &Queues,
         changes: &Changes,
         taken: &[Taken],
     ) -> Option<Vec<TransitionIndex>> {
@@ -35,11 +35,8 @@ impl Livelock {
         }
         let states = (0..e.layout.states).map(|s| engine.value(SourceIndex(s), t).to_bits());
         let locations = engine.locations().iter().map(|LocationIndex(l)| u64::from(*l));
-        let queue = |queue: &VecDeque<EventIndex>| {
-            let events: Vec<u64> = queue.iter().map(|event| u64::from(event.0)).collect();
-            events.into_iter().chain([u64::MAX])
-        };
-        let situation = states.chain(locations).chain(waiting.iter().flat_map(queue));
+        // An event has one receiver: what waits says for whom.
+        let situation = states.chain(locations).chain(waiting.all().map(|event| u64::from(event.0)));
         // What the micro-step itself changed tells most situations apart, without looking at all states.
         let first_location = e.layout.states as usize;
         let may_return = self.kept_at > 0
