@@ -5,9 +5,10 @@ use crate::blocks::Wanted;
 use crate::compile::{CompileError, parameter_leaf};
 use crate::repeats::{Draft, Reading};
 use crate::watches::signs_of;
+use rustc_hash::FxHashMap;
 use sophy_field::{
-    Affine, AutomatonIndex, EmissionCode, EventIndex, Formula, Guard, GuardStep, LocationIndex, Logic,
-    StateIndex, Table, TransitionCode, TriggerCode,
+    Affine, AutomatonIndex, AutomatonLogic, EmissionCode, EventIndex, Formula, Guard, GuardStep,
+    LocationIndex, Logic, StateIndex, Table, TransitionCode, TriggerCode,
 };
 use sophy_ir::{Evaluator, FlatTrigger, Leaf, Node, NodeId, Role};
 
@@ -127,20 +128,21 @@ pub(crate) fn compile(
     parameters: &[f64],
 ) -> Result<(Logic, Vec<Leads>), CompileError> {
     let system = gather.system;
-    let mut logic = Logic {
-        receivers: system.events.iter().map(|e| e.receiver.automaton).collect(),
-        follows_flag: system.automata.iter().map(|a| a.kind.role == Role::Flag).collect(),
-        ..Logic::default()
-    };
-    let mut locations = 0;
+    let mut logic =
+        Logic { receivers: system.events.iter().map(|e| e.receiver.automaton).collect(), ..Logic::default() };
+    let mut known = FxHashMap::default();
     for automaton in system.automata.iter() {
-        logic.first_location.push(locations);
-        let count = automaton.kind.locations.len();
-        locations += count as u32;
-        (0..count).for_each(|l| logic.outgoing.push(automaton.outgoing(LocationIndex::new(l))));
+        let code = *known.entry(automaton.kind.address()).or_insert_with(|| {
+            let locations = automaton.kind.locations.iter();
+            logic.automaton_codes.push(AutomatonLogic {
+                outgoing: locations.map(|location| location.transitions.as_slice().into()).collect(),
+                follows_flag: automaton.kind.role == Role::Flag,
+            });
+            logic.automaton_codes.len() as u32 - 1
+        });
+        logic.automata.push((code, automaton.first));
     }
-    logic.outgoing.shrink_to_fit();
-    logic.first_location.shrink_to_fit();
+    logic.automata.shrink_to_fit();
     let mut readers: Vec<(u32, AutomatonIndex)> = Vec::new();
     let mut transitions = Vec::with_capacity(system.transitions.len());
     for transition in system.transitions.iter() {

@@ -31,7 +31,9 @@ pub use index::{
 };
 pub use journal::{Journal, Record};
 pub use layout::{Layout, NOW, RecordLayout};
-pub use logic::{EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit};
+pub use logic::{
+    AutomatonLogic, EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit,
+};
 pub use memory::Memory;
 pub use program::{Call, Code, Enclose, Enclosing, Instruction, Jet, Kernel, Kernels, Program, Reads, Run};
 pub use table::Table;

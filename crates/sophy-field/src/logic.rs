@@ -8,16 +8,23 @@ pub struct Logic {
     pub transition_codes: Vec<TransitionCode>,
     /// Per transition, in written order: its code.
     pub transitions: Vec<Site>,
-    /// Per location, those of one automaton in a row: its outgoing transitions by priority, then in written order.
-    pub outgoing: Table<TransitionIndex>,
-    /// Per automaton: its first location in `outgoing`.
-    pub first_location: Vec<u32>,
+    /// What automata are.
+    pub automaton_codes: Vec<AutomatonLogic>,
+    /// Per automaton: its code, and its first transition.
+    pub automata: Vec<(u32, TransitionIndex)>,
     /// Per event: the automaton that receives it.
     pub receivers: Vec<AutomatonIndex>,
     /// Per watch: the automata whose guards read it.
     pub automata_of_watch: Table<AutomatonIndex>,
-    /// Per automaton: whether its two locations are the sides of a flag, which it follows.
-    pub follows_flag: Vec<bool>,
+}
+
+/// What the logic knows of an automaton; up to the copy.
+#[derive(Clone, Debug)]
+pub struct AutomatonLogic {
+    /// Per location: its outgoing transitions by priority, then in written order, counted from the first one.
+    pub outgoing: Vec<Box<[u32]>>,
+    /// Whether its two locations are the sides of a flag, which it follows.
+    pub follows_flag: bool,
 }
 
 impl Logic {
@@ -30,8 +37,20 @@ impl Logic {
 
     /// The transitions out of a location, by priority, then in written order.
     #[inline]
-    pub fn outgoing(&self, automaton: AutomatonIndex, location: LocationIndex) -> &[TransitionIndex] {
-        self.outgoing.row(self.first_location[automaton.position()] as usize + location.position())
+    pub fn outgoing(
+        &self,
+        automaton: AutomatonIndex,
+        location: LocationIndex,
+    ) -> impl Iterator<Item = TransitionIndex> + use<'_> {
+        let (code, first) = self.automata[automaton.position()];
+        let outgoing = &self.automaton_codes[code as usize].outgoing[location.position()];
+        outgoing.iter().map(move |transition| TransitionIndex(first.0 + transition))
+    }
+
+    /// Whether the two locations of an automaton are the sides of a flag, which it follows.
+    #[inline]
+    pub fn follows_flag(&self, automaton: AutomatonIndex) -> bool {
+        self.automaton_codes[self.automata[automaton.position()].0 as usize].follows_flag
     }
 }
 

@@ -69,7 +69,7 @@ pub struct Control {
 impl Control {
     /// The control of a system at its start: every guard will be looked at.
     pub fn new(logic: &Logic) -> Self {
-        let automata = logic.first_location.len();
+        let automata = logic.automata.len();
         let of_all = |needed: bool| if needed { automata } else { 0 };
         Control {
             queues: Queues::new(of_all(!logic.receivers.is_empty())),
@@ -214,7 +214,7 @@ impl Control {
         let sides = &mut self.sides;
         sides.clear();
         self.stale.retain(|automaton| {
-            if logic.follows_flag[automaton.position()] {
+            if logic.follows_flag(automaton) {
                 let location = engine.locations()[automaton.position()];
                 if let Some(transition) = enabled(engine, logic, automaton, location)
                     && quiet(transition)
@@ -244,8 +244,7 @@ impl Control {
         for transition in &self.chosen {
             let (code, copy) = logic.transition(*transition);
             let automaton = AutomatonIndex(code.automaton.of(copy));
-            if logic.follows_flag[automaton.position()]
-                && enabled(engine, logic, automaton, code.destination).is_some()
+            if logic.follows_flag(automaton) && enabled(engine, logic, automaton, code.destination).is_some()
             {
                 self.sides.locations.push((automaton, code.source));
             }
@@ -280,7 +279,7 @@ impl Control {
         self.waiting.retain(|automaton| {
             let Some(event) = queues.front(automaton) else { return false };
             let location = engine.locations()[automaton.position()];
-            let outgoing = logic.outgoing(automaton, location).iter().copied();
+            let outgoing = logic.outgoing(automaton, location);
             let mut listening = outgoing.filter_map(|transition| match logic.transition(transition) {
                 (TransitionCode { trigger: TriggerCode::On(events, guard), .. }, copy)
                     if events.iter().any(|waited| waited.of(copy) == event.0) =>
@@ -373,8 +372,7 @@ fn enabled(
     automaton: AutomatonIndex,
     location: LocationIndex,
 ) -> Option<TransitionIndex> {
-    let outgoing = logic.outgoing(automaton, location);
-    outgoing.iter().copied().find(|&transition| {
+    logic.outgoing(automaton, location).find(|&transition| {
         let (code, copy) = logic.transition(transition);
         match &code.trigger {
             TriggerCode::When(guard) => guard.holds(copy, |watch| engine.sign(watch)),

@@ -159,6 +159,15 @@ impl Graph {
         self.known = known;
     }
 
+    /// Forgets the nodes that came after the first `length`, which nothing may refer to any more.
+    pub fn truncate(&mut self, length: usize) {
+        if length < self.len() {
+            self.nodes.truncate(length.saturating_sub(self.packed.len()));
+            // It is found anew with the next node.
+            self.known = Vec::new();
+        }
+    }
+
     /// Gives back what only building takes; a node built later costs that once.
     pub fn shrink_to_fit(&mut self) {
         // Once: what comes later is little.

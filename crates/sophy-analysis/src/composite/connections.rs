@@ -57,7 +57,10 @@ pub(crate) fn connect<'m>(
         incomplete: false,
         joined: HashMap::new(),
     };
+    let written = builder.graph.len();
     connect_items(builder, &declaration.connections, &mut wiring);
+    // Indices and weights are numbers by now; what they were computed with is no part of the model.
+    builder.graph.truncate(written);
     wiring.composite.wires.shrink_to_fit();
     wiring.composite.event_wires.shrink_to_fit();
     wiring

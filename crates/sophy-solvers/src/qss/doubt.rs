@@ -15,7 +15,7 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     pub(super) fn turns_back(&mut self, e: &Equations, watch: WatchIndex, t: f64) -> Result<bool, Fault> {
         let record = &mut self.watches[watch.position()];
         let sign = record.sign;
-        if std::mem::replace(&mut record.doubted, t) == t || sign == Sign::Zero {
+        if record.was_doubted_at(t) || sign == Sign::Zero {
             return Ok(false);
         }
         let (code, copy) = e.watch(watch);

@@ -29,26 +29,41 @@ pub(super) struct WatchRecord {
     due: Due,
     /// Taken off the difference.
     pub(super) bias: f64,
-    /// When it was last located on the surface, s, and what the difference may then be beside 0.
-    located: f64,
+    /// Where it was located on the surface, what the difference may then be beside 0.
     blur: f64,
-    /// When a crossing of it was last doubted, s.
-    pub(super) doubted: f64,
-    /// Last sign change, or what was taken for one, s, and how often at that instant.
-    last: f64,
-    repeats: u32,
+    /// The instant, s, for which the following hold.
+    instant: f64,
+    /// How often its sign has changed, or what was taken for that.
+    changes: u32,
+    /// Whether it was located on the surface.
+    located: bool,
+    /// Whether a crossing of it was doubted.
+    doubted: bool,
 }
 
 impl WatchRecord {
-    /// Counts a sign change at `t`, or what was taken for one.
-    fn repeat_at(&mut self, t: f64) {
-        self.repeats = if self.last == t { self.repeats + 1 } else { 0 };
-        self.last = t;
+    /// What holds at `t`, s.
+    fn at(&mut self, t: f64) -> &mut Self {
+        if self.instant != t {
+            (self.instant, self.changes, self.located, self.doubted) = (t, 0, false, false);
+        }
+        self
+    }
+
+    /// Counts a sign change at `t`, or what was taken for one; whether there are too many.
+    fn repeats_at(&mut self, t: f64) -> bool {
+        self.at(t).changes += 1;
+        self.changes > MOST_REPEATS + 1
+    }
+
+    /// Whether a crossing at `t` was doubted before; from now on it was.
+    pub(super) fn was_doubted_at(&mut self, t: f64) -> bool {
+        std::mem::replace(&mut self.at(t).doubted, true)
     }
 
     /// Whether it was located at `t` and a jump since has left it on the surface.
     fn is_still_there(&self, c: &Jet, t: f64) -> bool {
-        self.located == t && c[0].abs() <= self.blur.max(blur(c, t))
+        self.instant == t && self.located && c[0].abs() <= self.blur.max(blur(c, t))
     }
 }
 
@@ -94,11 +109,11 @@ impl Default for WatchRecord {
             fresh: Fresh::No,
             due: Due::Root,
             bias: 0.0,
-            located: f64::NAN,
             blur: 0.0,
-            doubted: f64::NAN,
-            last: f64::NEG_INFINITY,
-            repeats: 0,
+            instant: f64::NAN,
+            changes: 0,
+            located: false,
+            doubted: false,
         }
     }
 }
@@ -176,7 +191,8 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
             // The difference is zero here, by what was located: the residue of rounding is taken off.
             let record = &mut self.watches[watch.position()];
             record.bias += c[0];
-            (record.located, record.blur) = (t, 2.0 * record.bias.abs() + blur(&c, t));
+            record.at(t).located = true;
+            record.blur = 2.0 * record.bias.abs() + blur(&c, t);
             decided.opposite()
         } else {
             self.sign_after(e, watch, t, &c)?
@@ -186,8 +202,7 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
             // goes on behind it.
             let record = &mut self.watches[watch.position()];
             record.bias += c[0];
-            record.repeat_at(t);
-            if record.repeats > MOST_REPEATS {
+            if record.repeats_at(t) {
                 return Err(Fault::Undecided { watch, time: t });
             }
             return self.predict(e, watch, t);
@@ -345,9 +360,8 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
         let (code, copy) = e.watch(watch);
         let record = &mut self.watches[watch.position()];
         if record.sign != sign {
-            record.repeat_at(t);
             record.sign = sign;
-            if record.repeats > MOST_REPEATS {
+            if record.repeats_at(t) {
                 return Err(Fault::Chattering { watch, time: t });
             }
             self.statistics.crossings += 1;

@@ -53,33 +53,52 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Bytes per state of a ring of cells, held when nothing is to be recorded, and at the peak.
-fn bytes(method: Method) -> [isize; 2] {
-    const CELLS: usize = 20_000;
-    let world = MemoryWorld::default().with("ring.hsml", ring_text(CELLS));
+/// Copies in an array of components.
+const COPIES: usize = 20_000;
+
+/// Bytes per state, held by a run that records nothing and has gone on for a while, and at the peak before.
+fn bytes(text: &str, method: Method) -> [isize; 2] {
+    let world = MemoryWorld::default().with("model.hsml", text);
     let quanta = vec![QuantumRule { pattern: "*".to_owned(), quantum: Quantum::absolute(1e-3) }];
     let experiment = Experiment { method, quanta, ..Experiment::default() };
     let before = LIVE.get();
     MOST.set(before);
-    let model = load(&world, Path::new("ring.hsml")).model.unwrap();
+    let model = load(&world, Path::new("model.hsml")).model.unwrap();
     let system = Arc::new(sophy_passes::lower(&model).unwrap());
     let mut run = sophy_run::Run::new(system, &experiment).unwrap();
     run.journal.stop();
-    let states = run.system().states.len() as isize;
-    assert_eq!(states, 3 * CELLS as isize);
-    [LIVE.get(), MOST.get()].map(|bytes| (bytes - before) / states)
+    assert!(matches!(run.advance(0.02, u64::MAX), Ok(sophy_run::Pause::Reached)));
+    let states = run.system().states.len();
+    assert!(states >= COPIES, "{states}");
+    [LIVE.get(), MOST.get()].map(|bytes| (bytes - before) / states as isize)
+}
+
+/// A model of the benchmarks, with so many copies in its array as here.
+fn large(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../benches/models").join(name);
+    let text = std::fs::read_to_string(path).unwrap();
+    text.replace("500", &COPIES.to_string()).replace("1..499", &format!("1..{}", COPIES - 1))
 }
 
 /// With the model, the system and the run; a copy stores nothing that its class knows.
 #[test]
 fn a_state_of_a_copy_costs_few_bytes() {
-    for (method, limits) in [(Method::Qss2, [190, 700]), (Method::Liqss2, [255, 700])] {
-        let found = bytes(method);
-        assert!(
-            found[0] <= limits[0] && found[1] <= limits[1],
-            "{method:?}: {found:?} B per state, {limits:?} allowed"
-        );
-        // A limit that has become generous holds nothing.
-        assert!(2 * found[0] > limits[0], "{method:?}: {found:?} B per state, {limits:?} allowed");
+    let (ring, line) = (ring_text(COPIES), large("line.hsml"));
+    let (reaction, neurons) = (large("reaction.hsml"), large("neurons.hsml"));
+    let limits = [
+        ("ring", &ring, [125, 190]),
+        ("line", &line, [140, 210]),
+        ("reaction", &reaction, [190, 250]),
+        ("neurons", &neurons, [200, 280]),
+    ];
+    for (name, text, limits) in limits {
+        for (method, limit) in [Method::Qss2, Method::Liqss2].into_iter().zip(limits) {
+            let [found, peak] = bytes(text, method);
+            println!("{name} {method:?}: {found} B per state, {peak} at the peak");
+            assert!(found <= limit, "{name} {method:?}: {found} B per state, {limit} allowed");
+            assert!(peak <= 1100, "{name} {method:?}: {peak} B per state at the peak");
+            // A limit that has become generous holds nothing.
+            assert!(5 * found > 4 * limit, "{name} {method:?}: {found} B per state, {limit} allowed");
+        }
     }
 }
