@@ -73,6 +73,15 @@ fn long_hopper_run_shows_its_many_transitions_in_the_strip_only() {
     has(&texts(&svg), &[&format!("{} transitions, too many to mark", events.len())]);
 }
 
+/// Two components that take theirs at the same instant have taken two.
+#[test]
+fn transitions_at_one_instant_are_counted_each() {
+    let (table, mut events) = battery();
+    events.extend(events.clone());
+    let (svg, _) = drawn("simultaneous", &table, &events, &PlotOptions::default());
+    has(&texts(&svg), &["8 transitions"]);
+}
+
 #[test]
 fn battery_over_hours() {
     let (table, events) = battery();

@@ -24,6 +24,8 @@ pub(super) struct Content<'a> {
     pub(super) bands: Vec<Band<'a>>,
     /// Times of transitions, each once, in order.
     pub(super) marks: Vec<f64>,
+    /// How many transitions there were, of which several may be at one time.
+    pub(super) transitions: usize,
     /// Variables that found no room.
     pub(super) left_out: Vec<&'a str>,
 }
@@ -72,6 +74,7 @@ impl<'a> Content<'a> {
             let locations = bands.iter().filter(|band| band.is_location);
             marks = locations.flat_map(|band| band.spans.iter().skip(1).map(|span| span.0)).collect();
         }
+        let transitions = marks.len();
         marks.sort_by(f64::total_cmp);
         marks.dedup();
 
@@ -81,7 +84,7 @@ impl<'a> Content<'a> {
             (Some(only), _) => (only - 0.5, only + 0.5),
             _ => (0.0, 1.0),
         };
-        Ok(Content { time: &table.time, time_range, panels, bands, marks, left_out })
+        Ok(Content { time: &table.time, time_range, panels, bands, marks, transitions, left_out })
     }
 
     /// The locations, if they are those of a single automaton.

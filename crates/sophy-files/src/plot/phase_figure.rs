@@ -56,7 +56,7 @@ pub(super) fn phase_figure(
         (true, _) => None,
         (false, true) => Some((Sign::Transition, "transition".to_owned())),
         (false, false) => {
-            Some((Sign::Nothing, format!("{} transitions, too many to mark", content.marks.len())))
+            Some((Sign::Nothing, format!("{} transitions, too many to mark", content.transitions)))
         }
     };
     let key = Key::new(&locations, transitions, left, left + side);

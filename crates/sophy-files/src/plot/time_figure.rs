@@ -208,7 +208,7 @@ fn key(content: &Content<'_>, left: f64, right: f64) -> Vec<(f64, f64, Key)> {
         }
     }
     if !content.marks.is_empty() {
-        let count = content.marks.len();
+        let count = content.transitions;
         pieces.push(if too_many(content, right - left) { Key::Unmarked(count) } else { Key::Mark(count) });
     }
     let widths: Vec<f64> = pieces.iter().map(|piece| piece.indent() + width(&piece.text(), TEXT)).collect();
