@@ -2,7 +2,7 @@
 
 use crate::automata::Owned;
 use crate::blocks::Gather;
-use crate::interpreter::{enclose, run};
+use crate::interpreter::{bound, enclose, run};
 use crate::logic;
 use crate::memory::Memory;
 use crate::patterns::Tables;
@@ -103,7 +103,7 @@ pub fn compile_sharing(
         layout: memory.layout,
         stairs: system.stairs.iter().map(|stair| stair_code(system, &memory, stair)).collect(),
         watches_of_source: watching.of_sources(),
-        ..Equations::none(run, enclose)
+        ..Equations::none(run, enclose, bound)
     };
     let emitter = Emitter::new(system, &mut memory, shapes, sharing);
     let mut tables = Tables::new(system, &mut gathered, emitter, equations);

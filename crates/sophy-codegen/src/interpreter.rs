@@ -1,9 +1,10 @@
-//! The interpreter: one function that runs any program, for every number of coefficients and for numbers and
+//! The interpreter: one function that runs any program, for every number of coefficients and for numbers, balls and
 //! enclosures alike.
 
+use crate::ball::BallOf;
 use crate::jet;
 use crate::scalar::Scalar;
-use sophy_field::{Affine, Code, Enclosing, NOW, Program};
+use sophy_field::{Affine, Ball, Code, Enclosing, NOW, Program};
 use sophy_segment::Interval;
 
 /// Runs `program` on numbers; see [`sophy_field::Run`].
@@ -14,6 +15,11 @@ pub fn run(program: &Program, operands: &[Affine], copy: u32, memory: &mut [f64]
 /// Runs `program` on enclosures; see [`sophy_field::Enclose`].
 pub fn enclose(program: &Program, operands: &[Affine], copy: u32, memory: &mut Enclosing<'_>, orders: usize) {
     dispatch(program, (operands, copy), memory, orders);
+}
+
+/// Bounds `program`; see [`sophy_field::Bound`].
+pub fn bound(program: &Program, operands: &[Affine], copy: u32, memory: &mut Enclosing<'_, Ball>) {
+    execute::<BallOf<f64>, _, 1>(program, (operands, copy), memory);
 }
 
 #[inline]
@@ -37,8 +43,10 @@ pub(crate) trait Bank<T: Scalar> {
     fn now(&self) -> T;
     fn get(&self, at: u32) -> T;
     fn set(&mut self, at: u32, value: T);
-    /// The numbers of a column: they stand behind their count.
-    fn column(&self, at: u32) -> &[T];
+    /// The position of `x` among the knots of a column.
+    fn locate(&self, x: T, column: u32) -> T;
+    /// The number at position `x` of a column.
+    fn lookup(&self, x: T, column: u32) -> T;
 
     #[inline]
     fn load<const N: usize>(&self, at: u32) -> [T; N] {
@@ -69,8 +77,12 @@ impl<T: Scalar> Bank<T> for Numbers<'_, T> {
         self.0[at as usize] = value;
     }
     #[inline]
-    fn column(&self, at: u32) -> &[T] {
-        numbers_of(&self.0[at as usize..])
+    fn locate(&self, x: T, column: u32) -> T {
+        x.locate(numbers_of(&self.0[column as usize..]))
+    }
+    #[inline]
+    fn lookup(&self, x: T, column: u32) -> T {
+        x.lookup(numbers_of(&self.0[column as usize..]))
     }
     #[inline]
     fn load<const N: usize>(&self, at: u32) -> [T; N] {
@@ -89,15 +101,47 @@ impl Bank<Interval> for Enclosing<'_> {
     }
     #[inline]
     fn get(&self, at: u32) -> Interval {
-        Enclosing::get(self, at)
+        match at.checked_sub(self.rest) {
+            Some(at) => self.enclosed[at as usize],
+            None => Interval::point(self.numbers[at as usize]),
+        }
     }
     #[inline]
     fn set(&mut self, at: u32, value: Interval) {
         // What programs write stands behind the records.
         self.enclosed[(at - self.rest) as usize] = value;
     }
-    fn column(&self, at: u32) -> &[Interval] {
-        numbers_of(&self.enclosed[(at - self.rest) as usize..])
+    fn locate(&self, x: Interval, column: u32) -> Interval {
+        x.locate(numbers_of(&self.enclosed[(column - self.rest) as usize..]))
+    }
+    fn lookup(&self, x: Interval, column: u32) -> Interval {
+        x.lookup(numbers_of(&self.enclosed[(column - self.rest) as usize..]))
+    }
+}
+
+impl Bank<BallOf<f64>> for Enclosing<'_, Ball> {
+    fn now(&self) -> BallOf<f64> {
+        let [middle, radius] = self.now;
+        BallOf { middle, radius }
+    }
+    #[inline]
+    fn get(&self, at: u32) -> BallOf<f64> {
+        let [middle, radius] = match at.checked_sub(self.rest) {
+            Some(at) => self.enclosed[at as usize],
+            None => [self.numbers[at as usize], 0.0],
+        };
+        BallOf { middle, radius }
+    }
+    #[inline]
+    fn set(&mut self, at: u32, BallOf { middle, radius }: BallOf<f64>) {
+        self.enclosed[(at - self.rest) as usize] = [middle, radius];
+    }
+    fn locate(&self, x: BallOf<f64>, _: u32) -> BallOf<f64> {
+        x.locate(&[])
+    }
+    fn lookup(&self, x: BallOf<f64>, column: u32) -> BallOf<f64> {
+        let middle = x.middle.lookup(numbers_of(&self.numbers[column as usize..]));
+        BallOf { middle, radius: x.radius_of_lookup() }
     }
 }
 
@@ -212,11 +256,11 @@ pub(crate) fn execute<T: Scalar, B: Bank<T>, const N: usize>(
                 continue;
             }
             Code::Locate => {
-                memory.set(to, scalar!(a).locate(memory.column(b)));
+                memory.set(to, memory.locate(scalar!(a), b));
                 continue;
             }
             Code::Lookup => {
-                memory.set(to, scalar!(a).lookup(memory.column(b)));
+                memory.set(to, memory.lookup(scalar!(a), b));
                 continue;
             }
             Code::Not => {

@@ -3,9 +3,10 @@
 //! - [`compile`] is the whole path: parameters are evaluated, rows become programs, programs are gathered
 //!   into blocks by influence.
 //! - One program serves every use: [`interpret`](interpreter) runs it on `f64` jets to any order (so that
-//!   derivatives along the motion are exact), and on intervals for enclosures.
+//!   derivatives along the motion are exact), on balls for quick bounds, and on intervals for enclosures.
 
 mod automata;
+mod ball;
 mod blocks;
 mod compile;
 mod incidence;
@@ -22,6 +23,6 @@ mod shapes;
 mod watches;
 
 pub use compile::{CompileError, Compiled, Parameters, compile, compile_sharing};
-pub use interpreter::{enclose, run};
+pub use interpreter::{bound, enclose, run};
 pub use native::{NoNativeCode, native};
 pub use shapes::Sharing;

@@ -6,6 +6,7 @@ pub(crate) trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     fn of(value: f64) -> Self;
+    fn abs(self) -> Self;
     fn square(self) -> Self;
     fn sqrt(self) -> Self;
     fn exp(self) -> Self;
@@ -110,6 +111,10 @@ impl Scalar for f64 {
         value
     }
     #[inline]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline]
     fn square(self) -> Self {
         self * self
     }
@@ -174,8 +179,8 @@ macro_rules! through_interval {
 impl Scalar for Interval {
     decided_at_once!();
     through_interval!(
-        square, sqrt, exp, ln, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh,
-        floor, sign
+        abs, square, sqrt, exp, ln, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh,
+        atanh, floor, sign
     );
 
     fn of(value: f64) -> Self {

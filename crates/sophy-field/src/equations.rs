@@ -1,6 +1,6 @@
 use crate::{
-    Affine, AutomatonIndex, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex, Memory, Program,
-    Run, Site, StateIndex, Table, WatchIndex,
+    Affine, AutomatonIndex, Ball, Bound, Call, Enclose, Enclosing, Jet, Kernels, Layout, LocationIndex,
+    Memory, Program, Run, Site, StateIndex, Table, WatchIndex,
 };
 use sophy_segment::Interval;
 use std::ops::Range;
@@ -31,6 +31,8 @@ pub struct Equations {
     pub run: Run,
     /// The function that encloses programs over an interval of time.
     pub enclose: Enclose,
+    /// The function that bounds programs over an interval of time.
+    pub bound: Bound,
     /// All programs.
     pub programs: Vec<Program>,
     /// Their native code, as soon as there is any: a run may go on while it is made. Whoever changes anything else
@@ -248,12 +250,13 @@ pub struct Formula {
 
 impl Equations {
     /// Equations of nothing, with the functions that run programs.
-    pub fn none(run: Run, enclose: Enclose) -> Self {
+    pub fn none(run: Run, enclose: Enclose, bound: Bound) -> Self {
         Equations {
             layout: Layout::default(),
             image: Vec::new(),
             run,
             enclose,
+            bound,
             programs: Vec::new(),
             kernels: OnceLock::new(),
             calls: Vec::new(),
@@ -320,6 +323,22 @@ impl Equations {
         (self.run)(&self.programs[call.program as usize], &call.operands, copy, memory, orders);
     }
 
+    #[allow(unsafe_code)]
+    fn execute_bounded(&self, call: &Call, copy: u32, memory: &mut Enclosing<'_, Ball>) {
+        let Layout { length, rest, .. } = self.layout;
+        let kernel = self.kernels.get().and_then(|kernels| kernels.bound(call.program));
+        if let Some(kernel) = kernel
+            && memory.numbers.len() == length as usize
+            && memory.enclosed.len() == (length - rest) as usize
+        {
+            let (operands, enclosed) = (call.operands.as_ptr(), memory.enclosed.as_mut_ptr());
+            // SAFETY: as in `execute`; there are as many balls as numbers behind the records.
+            unsafe { kernel(operands, copy, memory.numbers.as_ptr(), enclosed, &raw const memory.now) };
+            return;
+        }
+        (self.bound)(&self.programs[call.program as usize], &call.operands, copy, memory);
+    }
+
     fn execute_enclosed(&self, call: &Call, copy: u32, memory: &mut Enclosing<'_>, orders: usize) {
         (self.enclose)(&self.programs[call.program as usize], &call.operands, copy, memory, orders);
     }
@@ -378,10 +397,26 @@ impl Equations {
         }
         self.execute_enclosed(&formula.call, copy, memory, orders);
         let (at, zero) = (formula.at.of(copy), Interval::point(0.0));
+        // What is computed stands behind the records.
+        let results = &memory.enclosed[(at - memory.rest) as usize..];
         if !formula.is_jet {
-            return [memory.get(at), zero, zero];
+            return [results[0], zero, zero];
         }
-        std::array::from_fn(|k| if k < orders { memory.get(at + k as u32) } else { Interval::ENTIRE })
+        std::array::from_fn(|k| if k < orders { results[k] } else { Interval::ENTIRE })
+    }
+
+    /// What the value does not leave over a stretch of time.
+    pub fn formula_bounded(
+        &self,
+        (formula, copy): (&Formula, u32),
+        locations: &[LocationIndex],
+        memory: &mut Enclosing<'_, Ball>,
+    ) -> Ball {
+        for turn in turns_of(&formula.before, copy) {
+            self.execute_bounded(&self.calls[turn.at(locations)], turn.copy, memory);
+        }
+        self.execute_bounded(&formula.call, copy, memory);
+        memory.enclosed[(formula.at.of(copy) - memory.rest) as usize]
     }
 
     /// Four numbers at the result of a row, of which so many are its coefficients as its program was asked for.

@@ -35,5 +35,8 @@ pub use logic::{
     AutomatonLogic, EmissionCode, Guard, GuardStep, Logic, TransitionCode, TriggerCode, sign_bit,
 };
 pub use memory::Memory;
-pub use program::{Call, Code, Enclose, Enclosing, Instruction, Jet, Kernel, Kernels, Program, Reads, Run};
+pub use program::{
+    Ball, Bound, BoundKernel, Call, Code, Enclose, Enclosing, Instruction, Jet, Kernel, Kernels, Program,
+    Reads, Run,
+};
 pub use table::Table;

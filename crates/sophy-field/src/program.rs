@@ -178,28 +178,24 @@ pub type Run = fn(program: &Program, operands: &[Affine], copy: u32, memory: &mu
 pub type Enclose =
     fn(program: &Program, operands: &[Affine], copy: u32, memory: &mut Enclosing<'_>, orders: usize);
 
+/// All numbers that are not farther from the first of these two than the second: a middle and a radius, infinite or NaN
+/// where nothing is known.
+pub type Ball = [f64; 2];
+
+/// Values over a stretch of time as balls: coarser, but quicker.
+pub type Bound = fn(program: &Program, operands: &[Affine], copy: u32, memory: &mut Enclosing<'_, Ball>);
+
 /// Memory over a stretch of time: what programs write is enclosed, the records of sources are numbers.
 #[derive(Debug)]
-pub struct Enclosing<'a> {
-    /// Memory; only its records are read.
+pub struct Enclosing<'a, E = Interval> {
+    /// Memory. Of its numbers only the records and, by [`Bound`], the columns are read.
     pub numbers: &'a [f64],
     /// What stands behind the records.
-    pub enclosed: &'a mut [Interval],
+    pub enclosed: &'a mut [E],
     /// Where that begins ([`Layout::rest`](crate::Layout::rest)).
     pub rest: u32,
     /// The stretch of time, s.
-    pub now: Interval,
-}
-
-impl Enclosing<'_> {
-    /// What stands at an offset.
-    #[inline]
-    pub fn get(&self, at: u32) -> Interval {
-        match at.checked_sub(self.rest) {
-            Some(at) => self.enclosed[at as usize],
-            None => Interval::point(self.numbers[at as usize]),
-        }
-    }
+    pub now: E,
 }
 
 /// Native code of programs: for each number of coefficients, one function per program that has it.
@@ -209,6 +205,8 @@ impl Enclosing<'_> {
 pub struct Kernels {
     /// By program, then by orders − 1.
     of: Vec<[Option<Kernel>; 4]>,
+    /// By program.
+    bounds: Vec<Option<BoundKernel>>,
     /// Keeps the machine code alive.
     _code: Arc<dyn Any + Send + Sync>,
 }
@@ -219,15 +217,33 @@ pub struct Kernels {
 /// As [`Kernels::new`] says.
 pub type Kernel = unsafe extern "C" fn(operands: *const Affine, copy: u32, memory: *mut f64);
 
+/// Machine code that bounds a program: its operands, for which copy, memory, what stands behind the records, and the
+/// stretch of time.
+///
+/// # Safety
+/// As [`Kernels::new`] says.
+pub type BoundKernel = unsafe extern "C" fn(
+    operands: *const Affine,
+    copy: u32,
+    numbers: *const f64,
+    enclosed: *mut Ball,
+    now: *const Ball,
+);
+
 impl Kernels {
-    /// Kernels by program and then by orders − 1; `code` is what they live in.
+    /// Kernels by program and then by orders − 1, and those that bound, by program; `code` is what they live in.
     ///
     /// # Safety
     /// A kernel lives as long as `code`. Run with operands of a [`Call`] of its program, one of the copies, and memory
-    /// of the length in the [`Equations`](crate::Equations) it was made for, it stays inside both.
+    /// of the length in the [`Equations`](crate::Equations) it was made for, it stays inside both; and if it bounds,
+    /// inside of as many balls as numbers stand behind the records.
     #[allow(unsafe_code)]
-    pub unsafe fn new(of: Vec<[Option<Kernel>; 4]>, code: Arc<dyn Any + Send + Sync>) -> Self {
-        Kernels { of, _code: code }
+    pub unsafe fn new(
+        of: Vec<[Option<Kernel>; 4]>,
+        bounds: Vec<Option<BoundKernel>>,
+        code: Arc<dyn Any + Send + Sync>,
+    ) -> Self {
+        Kernels { of, bounds, _code: code }
     }
 
     /// The kernel of a program, if it has one.
@@ -236,9 +252,14 @@ impl Kernels {
         self.of.get(program as usize)?[(orders - 1) % 4]
     }
 
+    /// The kernel that bounds a program, if it has one.
+    pub fn bound(&self, program: u32) -> Option<BoundKernel> {
+        *self.bounds.get(program as usize)?
+    }
+
     /// How many kernels there are.
     pub fn count(&self) -> usize {
-        self.of.iter().flatten().flatten().count()
+        self.of.iter().flatten().flatten().count() + self.bounds.iter().flatten().count()
     }
 }
 

@@ -18,14 +18,16 @@ use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::FunctionBuilderContext;
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Module, ModuleError, default_libcall_names};
-use lower::{Wanted, lower};
+use lower::{Kind, Wanted, lower};
 use rustc_hash::FxHashSet;
-use sophy_field::{Affine, Call, Equations, Formula, Kernel, Kernels, Logic, Program};
+use sophy_field::{Affine, BoundKernel, Call, Equations, Formula, Kernel, Kernels, Logic, Program};
 use std::sync::{Arc, Mutex};
 use thunks::{Thunks, symbols};
 
 /// Programs with more instructions stay interpreted: a function takes time that grows faster than its length.
 const LONGEST: usize = 2000;
+/// The same of programs over balls, which do some ten times as much.
+const LONGEST_BOUND: usize = 200;
 
 /// There is no native code on this machine.
 #[derive(Debug, thiserror::Error)]
@@ -63,43 +65,59 @@ pub fn native(equations: &Equations, logic: &Logic) -> Result<Kernels, NoNativeC
         return Err(NoNativeCode::TooLarge);
     }
     // SAFETY: these are all calls of these programs, and programs stay inside operands and memory.
-    unsafe { compile(&equations.programs, &Asked::of(equations, logic)) }
+    unsafe { compile(&equations.programs, equations.layout.rest, &Asked::of(equations, logic)) }
 }
 
 /// # Safety
-/// Operands are so many as `asked` says; they and what the programs address lie inside of memory.
-unsafe fn compile(programs: &[Program], asked: &Asked) -> Result<Kernels, NoNativeCode> {
+/// Operands are so many as `asked` says; they and what the programs address lie inside of memory, and what they write
+/// lies behind `rest`, where the records end.
+unsafe fn compile(programs: &[Program], rest: u32, asked: &Asked) -> Result<Kernels, NoNativeCode> {
     let mut module = module()?;
     let (mut context, mut builder) = (module.make_context(), FunctionBuilderContext::new());
     let mut thunks = Thunks::default();
+    let mut function = |kind: Kind, position: usize, operands: u32| -> Result<FuncId, NoNativeCode> {
+        let (program, results) = (&programs[position], &asked.results[position]);
+        let wanted = Wanted { program, kind, results, temporaries: program.gather, operands };
+        let pointer = AbiParam::new(types::I64);
+        context.func.signature.params.extend([pointer, AbiParam::new(types::I32), pointer]);
+        if let Kind::Balls(_) = kind {
+            context.func.signature.params.extend([pointer; 2]);
+        }
+        thunks.begin();
+        lower(&wanted, &mut context.func, &mut builder, &mut module, &mut thunks)?;
+        let function = module.declare_anonymous_function(&context.func.signature).map_err(Box::new)?;
+        module.define_function(function, &mut context).map_err(Box::new)?;
+        module.clear_context(&mut context);
+        Ok(function)
+    };
     let mut functions: Vec<[Option<FuncId>; 4]> = vec![[None; 4]; programs.len()];
-    for (orders, calls) in (1..).zip(&asked.calls) {
-        for (position, program) in programs.iter().enumerate() {
-            let Some(operands) = calls[position].filter(|_| program.instructions.len() <= LONGEST) else {
-                continue;
-            };
-            let results = &asked.results[position];
-            let wanted = Wanted { program, orders, results, temporaries: program.gather, operands };
-            let pointer = AbiParam::new(types::I64);
-            context.func.signature.params.extend([pointer, AbiParam::new(types::I32), pointer]);
-            thunks.begin();
-            lower(&wanted, &mut context.func, &mut builder, &mut module, &mut thunks)?;
-            let function = module.declare_anonymous_function(&context.func.signature).map_err(Box::new)?;
-            module.define_function(function, &mut context).map_err(Box::new)?;
-            module.clear_context(&mut context);
-            functions[position][orders - 1] = Some(function);
+    let mut bounds: Vec<Option<FuncId>> = vec![None; programs.len()];
+    for (position, program) in programs.iter().enumerate() {
+        let length = program.instructions.len();
+        for (orders, calls) in (1..).zip(&asked.calls) {
+            if let Some(operands) = calls[position].filter(|_| length <= LONGEST) {
+                functions[position][orders - 1] = Some(function(Kind::Jets(orders), position, operands)?);
+            }
+        }
+        if let Some(operands) = asked.bounds[position].filter(|_| length <= LONGEST_BOUND) {
+            bounds[position] = Some(function(Kind::Balls(rest), position, operands)?);
         }
     }
     thunks.define(&mut module, &mut context, &mut builder)?;
     module.finalize_definitions().map_err(Box::new)?;
-    let kernel = |function: FuncId| {
-        let code = module.get_finalized_function(function);
+    let code = |function: FuncId| module.get_finalized_function(function);
+    let kernel = |function| {
         // SAFETY: this is the code of a function of this signature.
-        unsafe { std::mem::transmute::<*const u8, Kernel>(code) }
+        unsafe { std::mem::transmute::<*const u8, Kernel>(code(function)) }
+    };
+    let bound = |function| {
+        // SAFETY: as before.
+        unsafe { std::mem::transmute::<*const u8, BoundKernel>(code(function)) }
     };
     let kernels = functions.into_iter().map(|of| of.map(|function| function.map(kernel))).collect();
+    let bounds = bounds.into_iter().map(|function| function.map(bound)).collect();
     // SAFETY: `lower` addresses what the interpreter does.
-    Ok(unsafe { Kernels::new(kernels, Arc::new(Code(Mutex::new(Some(module))))) })
+    Ok(unsafe { Kernels::new(kernels, bounds, Arc::new(Code(Mutex::new(Some(module))))) })
 }
 
 fn module() -> Result<JITModule, NoNativeCode> {
@@ -128,6 +146,8 @@ fn module() -> Result<JITModule, NoNativeCode> {
 struct Asked {
     /// By orders − 1, then by program: the number of operands, if it is run with so many coefficients.
     calls: Vec<Vec<Option<u32>>>,
+    /// By program: the same if it is bounded.
+    bounds: Vec<Option<u32>>,
     /// By program: offsets that are read when it has run.
     results: Vec<FxHashSet<u32>>,
 }
@@ -135,8 +155,18 @@ struct Asked {
 impl Asked {
     fn of(equations: &Equations, logic: &Logic) -> Self {
         let (programs, width) = (equations.programs.len(), equations.layout.width as usize);
-        let mut asked =
-            Asked { calls: vec![vec![None; programs]; width], results: vec![FxHashSet::default(); programs] };
+        let mut asked = Asked {
+            calls: vec![vec![None; programs]; width],
+            bounds: vec![None; programs],
+            results: vec![FxHashSet::default(); programs],
+        };
+        let searched = || equations.watch_codes.iter().filter(|watch| !watch.affine);
+        if searched().next().is_some() {
+            let formulas = searched().map(|watch| &watch.formula.call);
+            for call in equations.calls.iter().chain(formulas) {
+                asked.bounds[call.program as usize] = Some(call.operands.len() as u32);
+            }
+        }
         for block in &equations.blocks {
             let orders = if block.bends { width } else { width - 1 };
             asked.call(&block.call, &[1, orders]);

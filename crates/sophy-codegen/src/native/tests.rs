@@ -1,7 +1,7 @@
 use super::{Asked, compile};
-use crate::interpreter::run;
+use crate::interpreter::{bound, run};
 use proptest::prelude::*;
-use sophy_field::{Affine, Code, Instruction, Kernels, Program};
+use sophy_field::{Affine, Ball, Code, Enclosing, Instruction, Kernels, Program};
 
 const WIDTH: usize = 4;
 
@@ -76,20 +76,23 @@ fn memory(numbers: &[f64]) -> Vec<f64> {
 struct Both {
     program: Program,
     orders: usize,
+    /// Where records end.
+    rest: u32,
     kernels: Kernels,
 }
 
 impl Both {
-    fn new(program: Program, operands: u32, orders: usize) -> Self {
+    fn new(program: Program, operands: u32, orders: usize, rest: u32) -> Self {
         let results = vec![(TEMPORARIES..LENGTH as u32).collect()];
-        let mut asked = Asked { calls: vec![vec![None]; WIDTH], results };
+        let mut asked = Asked { calls: vec![vec![None]; WIDTH], bounds: vec![Some(operands)], results };
         asked.calls[orders - 1][0] = Some(operands);
-        // SAFETY: `run` brings operands that lie inside of memory, as what the programs of this file address does.
-        let kernels = unsafe { compile(std::slice::from_ref(&program), &asked) }.unwrap();
-        Both { program, orders, kernels }
+        // SAFETY: `run` brings operands that lie inside of memory, as what the programs of this file address does, and
+        // records are only read.
+        let kernels = unsafe { compile(std::slice::from_ref(&program), rest, &asked) }.unwrap();
+        Both { program, orders, rest, kernels }
     }
 
-    /// The bits of memory, interpreted and native.
+    /// The bits of memory, interpreted and native: numbers, and then balls.
     fn run(&self, operands: &[u32], numbers: &[f64]) -> [Vec<u64>; 2] {
         let (mut interpreted, mut native) = (memory(numbers), memory(numbers));
         // As those of some copy.
@@ -102,9 +105,21 @@ impl Both {
         run(&self.program, &operands, copy, &mut interpreted, self.orders);
         // SAFETY: as in `new`.
         unsafe { self.kernels.get(0, self.orders).unwrap()(operands.as_ptr(), copy, native.as_mut_ptr()) };
+        let (numbers, rest) = (memory(numbers), self.rest);
+        let radius = |k: usize| 0.1 * numbers[(7 * k + 3) % LENGTH].abs();
+        let balls: Vec<Ball> = (rest as usize..LENGTH).map(|k| [numbers[k], radius(k)]).collect();
+        let (mut bounded, mut natively) = (balls.clone(), balls);
+        let now = [numbers[0], 0.125];
+        let mut enclosing = Enclosing { numbers: &numbers, enclosed: &mut bounded, rest, now };
+        bound(&self.program, &operands, copy, &mut enclosing);
+        let kernel = self.kernels.bound(0).unwrap();
+        // SAFETY: as in `new`.
+        unsafe { kernel(operands.as_ptr(), copy, numbers.as_ptr(), natively.as_mut_ptr(), &raw const now) };
         // Which of two NaN comes out of their sum is not promised.
         let bits = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
-        [interpreted, native].map(|memory| memory.into_iter().map(bits).collect())
+        [(interpreted, bounded), (native, natively)].map(|(numbers, balls)| {
+            numbers.into_iter().chain(balls.into_iter().flatten()).map(bits).collect()
+        })
     }
 }
 
@@ -144,7 +159,7 @@ proptest! {
             .map(|(position, (code, a, b))| instruction(all[code], position, a, b))
             .collect();
         let program = Program { instructions, gather: TEMPORARIES, stride: WIDTH as u32 };
-        let [interpreted, native] = Both::new(program, 0, orders).run(&[], &numbers);
+        let [interpreted, native] = Both::new(program, 0, orders, 0).run(&[], &numbers);
         prop_assert_eq!(interpreted, native);
     }
 }
@@ -162,7 +177,7 @@ fn each_code_agrees_on_special_numbers() {
             for orders in 1..=WIDTH {
                 let program =
                     Program { instructions: vec![alone], gather: TEMPORARIES, stride: WIDTH as u32 };
-                let both = Both::new(program, 0, orders);
+                let both = Both::new(program, 0, orders, 0);
                 for (x, y) in special.into_iter().flat_map(|x| special.map(|y| (x, y))) {
                     let [interpreted, native] = both.run(&[], &[x, y, 0.7, y, x, -0.3].repeat(5));
                     assert_eq!(interpreted, native, "{code:?} of {x} and {y}, {orders} orders");
@@ -194,7 +209,7 @@ fn branches_and_operands() {
     };
     let numbers: Vec<f64> = (0..READ).map(|k| f64::from(k * 7 % 5) + 0.5).collect();
     for orders in 1..=WIDTH {
-        let both = Both::new(program.clone(), 4, orders);
+        let both = Both::new(program.clone(), 4, orders, 0);
         for operands in [[0, 3, 6, 9], [3, 0, 6, 9], [12, 15, 0, 0], [9, 9, 9, 9]] {
             let [interpreted, native] = both.run(&operands, &numbers);
             let written = operands[1] as usize;
@@ -215,7 +230,7 @@ fn trajectories_are_followed() {
         let instructions =
             vec![follow(Code::FollowOperand, at(0), 0), follow(Code::Follow, at(1), 8), product];
         let program = Program { instructions, gather: TEMPORARIES, stride: WIDTH as u32 };
-        let both = Both::new(program, 1, orders);
+        let both = Both::new(program, 1, orders, READ);
         for now in [-1.0, 0.25, 3.0] {
             let mut numbers: Vec<f64> = (0..READ).map(|k| f64::from(k * 7 % 5) - 1.5).collect();
             numbers[0] = now;

@@ -1,6 +1,7 @@
 //! The interpreter's arithmetic, written down instead of done: what one instruction computes, operation by
 //! operation, in the same order, so that native code has the same bits.
 
+use crate::ball::BallOf;
 use crate::interpreter::{Numbers, execute};
 use crate::scalar::Scalar;
 use sophy_field::{Code, Instruction, Program};
@@ -14,8 +15,7 @@ pub(super) struct Traced(u32);
 /// An operation; operands are positions of earlier ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Operation {
-    /// A number of the operands: those of the first jet or scalar, then those of the second. Of a trajectory: its
-    /// coefficients, its start, the present time.
+    /// A part of what is read, as [`Trace::of`] counts them.
     Input(u32),
     Number(f64),
     Add(u32, u32),
@@ -23,6 +23,7 @@ pub(super) enum Operation {
     Multiply(u32, u32),
     Divide(u32, u32),
     Negate(u32),
+    Absolute(u32),
     Sqrt(u32),
     Floor(u32),
     Less(u32, u32),
@@ -64,7 +65,7 @@ pub(super) enum FunctionOfTwo {
 #[derive(Debug, Default)]
 pub(super) struct Trace {
     pub(super) operations: Vec<Operation>,
-    /// Where the coefficients of the result stand on the tape.
+    /// Where the coefficients of the result stand on the tape, all parts of each.
     pub(super) results: Vec<u32>,
 }
 
@@ -72,21 +73,57 @@ thread_local! {
     static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
 }
 
-/// What `instruction` (neither a jump nor one that reads columns) does to jets of `orders` coefficients.
-pub(super) fn trace(instruction: &Instruction, orders: usize) -> Trace {
-    match orders {
-        1 => trace_jets::<1>(instruction),
-        2 => trace_jets::<2>(instruction),
-        3 => trace_jets::<3>(instruction),
-        _ => trace_jets::<4>(instruction),
+impl Trace {
+    /// What `instruction` (neither a jump nor one that reads columns) does to jets of `orders` coefficients.
+    ///
+    /// What it reads is counted so: the numbers of the first jet or scalar, then those of the second. Of a trajectory: its
+    /// coefficients, its start, the present time.
+    pub(super) fn of(instruction: &Instruction, orders: usize) -> Self {
+        match orders {
+            1 => trace::<Traced, 1>(instruction),
+            2 => trace::<Traced, 2>(instruction),
+            3 => trace::<Traced, 3>(instruction),
+            _ => trace::<Traced, 4>(instruction),
+        }
+    }
+
+    /// What it does to balls: of each the middle is counted first, then the radius.
+    pub(super) fn of_balls(instruction: &Instruction) -> Self {
+        trace::<BallOf<Traced>, 1>(instruction)
     }
 }
 
-fn trace_jets<const N: usize>(instruction: &Instruction) -> Trace {
+/// What is made of numbers on the tape.
+trait Parts: Scalar {
+    /// What is read as the `k`-th.
+    fn input(k: u32) -> Self;
+    /// Its parts.
+    fn parts(self) -> impl Iterator<Item = Traced>;
+}
+
+impl Parts for Traced {
+    fn input(k: u32) -> Self {
+        note(Operation::Input(k))
+    }
+    fn parts(self) -> impl Iterator<Item = Traced> {
+        [self].into_iter()
+    }
+}
+
+impl Parts for BallOf<Traced> {
+    fn input(k: u32) -> Self {
+        BallOf { middle: Traced::input(2 * k), radius: Traced::input(2 * k + 1) }
+    }
+    fn parts(self) -> impl Iterator<Item = Traced> {
+        [self.middle, self.radius].into_iter()
+    }
+}
+
+fn trace<T: Parts, const N: usize>(instruction: &Instruction) -> Trace {
     TAPE.with_borrow_mut(Vec::clear);
     let n = N as u32;
-    let input = |k: u32| note(Operation::Input(k));
-    let (alone, mut memory): (_, Vec<Traced>) = match instruction.code {
+    let input = T::input;
+    let (alone, mut memory): (_, Vec<T>) = match instruction.code {
         Code::Follow | Code::FollowOperand => {
             // The present time stands first.
             let count = instruction.b;
@@ -99,11 +136,12 @@ fn trace_jets<const N: usize>(instruction: &Instruction) -> Trace {
             (Instruction { code, to: 2 * n, a: 0, b }, (0..2 * n).map(input).collect())
         }
     };
-    memory.extend((0..n).map(|_| Traced::of(0.0)));
+    memory.extend((0..n).map(|_| T::of(0.0)));
     let program = Program { instructions: vec![alone], gather: 0, stride: 0 };
-    execute::<Traced, _, N>(&program, (&[], 0), &mut Numbers(&mut memory));
+    execute::<T, _, N>(&program, (&[], 0), &mut Numbers(&mut memory));
     let written = if instruction.code.writes_jet() { N } else { 1 };
-    let results = memory[alone.to as usize..][..written].iter().map(|traced| traced.0).collect();
+    let results = memory[alone.to as usize..][..written].iter().flat_map(|result| result.parts());
+    let results = results.map(|traced| traced.0).collect();
     Trace { operations: TAPE.with_borrow_mut(std::mem::take), results }
 }
 
@@ -178,6 +216,9 @@ impl Scalar for Traced {
 
     fn of(value: f64) -> Self {
         note(Operation::Number(value))
+    }
+    fn abs(self) -> Self {
+        note(Operation::Absolute(self.0))
     }
     fn square(self) -> Self {
         self * self
@@ -254,9 +295,11 @@ impl Operation {
     pub(super) fn operands(&self, mut visit: impl FnMut(u32)) {
         match *self {
             Operation::Input(_) | Operation::Number(_) => {}
-            Operation::Negate(a) | Operation::Sqrt(a) | Operation::Floor(a) | Operation::Call(_, a) => {
-                visit(a);
-            }
+            Operation::Negate(a)
+            | Operation::Absolute(a)
+            | Operation::Sqrt(a)
+            | Operation::Floor(a)
+            | Operation::Call(_, a) => visit(a),
             Operation::Add(a, b)
             | Operation::Subtract(a, b)
             | Operation::Multiply(a, b)

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use sophy_codegen::{Compiled, Parameters, Sharing, compile_sharing};
-use sophy_field::{Enclosing, Formula, Jet, LocationIndex, NOW, SourceIndex, StateIndex, WatchIndex};
+use sophy_field::{Ball, Enclosing, Formula, Jet, LocationIndex, NOW, SourceIndex, StateIndex, WatchIndex};
 use sophy_ir::{Binary, Comparison, Graph, Leaf, Model, Node, NodeId, System, Unary, Value, evaluate};
 use sophy_segment::Interval;
 use sophy_testkit::Build;
@@ -444,12 +444,18 @@ proptest! {
         let mut enclosed: Vec<Interval> =
             numbers[rest as usize..].iter().copied().map(Interval::point).collect();
         let now = Interval::new(TIME, TIME + width);
+        let mut bounded: Vec<Ball> = numbers[rest as usize..].iter().map(|&number| [number, 0.0]).collect();
+        let around = [TIME + 0.5 * width, 0.5 * width + 1e-15];
         for (formula, _) in case.formulas().into_iter().take(e.watches.len()) {
             let mut memory = Enclosing { numbers: &numbers, enclosed: &mut enclosed, rest, now };
             let enclosure = e.formula_enclosed(formula, &HERE, &mut memory);
+            let mut memory = Enclosing { numbers: &numbers, enclosed: &mut bounded, rest, now: around };
+            let [middle, radius] = e.formula_bounded(formula, &HERE, &mut memory);
             for &part in &inside {
                 let mut memory = case.memory(&jets(&point, &motion, part * width));
                 let c = e.formula(formula, &HERE, &mut memory, 3);
+                let outside = (c[0] - middle).abs() > radius + 1e-12 * (1.0 + c[0].abs());
+                prop_assert!(!outside, "{} is not within {radius} of {middle} at {part} of {width}", c[0]);
                 for (x, range) in c.into_iter().zip(enclosure) {
                     let slack = 1e-12 * (1.0 + x.abs());
                     let holds = x.is_nan() || range.contains(x) || range.contains(x - slack) || range.contains(x + slack);

@@ -6,8 +6,8 @@ use super::record::{Place, Record, RecordMut};
 use super::settings::Settings;
 use super::watches::WatchRecord;
 use sophy_field::{
-    Agenda, AutomatonIndex, Changes, Engine, Equations, Fault, Formula, Jet, Journal, LocationIndex, Memory,
-    NOW, SourceIndex, Start, StateIndex, Statistics, Stop, Turn, WatchIndex, sources_of, turns_of,
+    Agenda, AutomatonIndex, Ball, Changes, Engine, Equations, Fault, Formula, Jet, Journal, LocationIndex,
+    Memory, NOW, SourceIndex, Start, StateIndex, Statistics, Stop, Turn, WatchIndex, sources_of, turns_of,
 };
 use sophy_segment::{Interval, Sign};
 use std::cmp::Reverse;
@@ -51,8 +51,9 @@ pub struct Qss<const ORDER: usize, const IMPLICIT: bool> {
     pub(super) agenda: Agenda,
     /// Memory of the programs, with the records of states, inputs and time.
     pub(super) memory: Memory,
-    /// What stands behind the records, enclosed.
+    /// What stands behind the records, enclosed by intervals and by balls; empty if all watches are affine.
     pub(super) enclosed: Vec<Interval>,
+    pub(super) bounded: Vec<Ball>,
     /// What a record held of q; empty in between.
     pub(super) kept: Vec<([f64; 3], f64)>,
     /// What records held of x while a crossing is doubted, and since when; empty in between.
@@ -90,7 +91,8 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
     pub fn new(equations: &Equations, mut settings: Settings) -> Self {
         let layout = equations.layout;
         let (states, watches) = (layout.states as usize, equations.watches.len());
-        let rest = &equations.image;
+        let searched = equations.watch_codes.iter().any(|watch| !watch.affine);
+        let rest = if searched { &equations.image[..] } else { &[] };
         let (mut own, quanta) = Own::of(&std::mem::take(&mut settings.quanta));
         Qss {
             ahead: vec![Ahead::NEW; if IMPLICIT { states } else { 0 }],
@@ -106,6 +108,7 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
             agenda: Agenda::new(states + watches),
             memory: equations.memory(),
             enclosed: rest.iter().map(|&value| Interval::point(value)).collect(),
+            bounded: rest.iter().map(|&value| [value, 0.0]).collect(),
             kept: Vec::new(),
             doubting: Vec::new(),
             switchings: 0,

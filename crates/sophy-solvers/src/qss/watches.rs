@@ -92,6 +92,8 @@ enum Due {
 
 /// Sides that differ by no more than so many relative roundings are equal.
 const EQUAL: f64 = 64.0;
+/// What a quick look must leave of a difference, for its own rounding.
+const SURE: f64 = 1.0 - 1e-12;
 /// The least part of its window that a search must decide.
 const LEAST_PROGRESS: f64 = 1e-4;
 
@@ -402,7 +404,11 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
         }
         self.switchings += 1;
         self.memory[at as usize] = value;
-        self.enclosed[(at - e.layout.rest) as usize] = Interval::point(value);
+        if !self.enclosed.is_empty() {
+            let behind = (at - e.layout.rest) as usize;
+            self.enclosed[behind] = Interval::point(value);
+            self.bounded[behind] = [value, 0.0];
+        }
         true
     }
 
@@ -457,6 +463,9 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
         let far = t + self.settings.window;
         let end = if next > t && next < far { next } else { far };
         let start = Start { sign: self.watches[watch.position()].sign, on_surface };
+        if self.stays(e, watch, t, end, start.sign) {
+            return Ok((end, Due::Search));
+        }
         let until = match self.search_from(e, watch, t, end, start) {
             Search::Crossing(time) => return Ok((time, if time > t { Due::Root } else { Due::Joint })),
             Search::None => end,
@@ -470,6 +479,20 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
         } else {
             Err(Fault::Undecided { watch, time: t })
         }
+    }
+
+    /// Whether a quick look is enough to see that a watched difference keeps its sign until `end`.
+    fn stays(&mut self, e: &Equations, watch: WatchIndex, t: f64, end: f64, sign: Sign) -> bool {
+        self.statistics.enclosures += 1;
+        let (code, copy) = e.watch(watch);
+        let (middle, half) = (t.midpoint(end), (0.5 * (end - t)).next_up());
+        // The middle is rounded: what lies beside it is in the radius.
+        let now = [middle, half + (middle.abs().next_up() - middle.abs())];
+        let rest = e.layout.rest;
+        let mut memory = Enclosing { numbers: &self.memory, enclosed: &mut self.bounded, rest, now };
+        let [difference, radius] = e.formula_bounded((&code.formula, copy), &self.locations, &mut memory);
+        let difference = difference - self.watches[watch.position()].bias;
+        difference.abs() * SURE > radius && Sign::of(difference) == sign
     }
 
     fn search_from(&mut self, e: &Equations, watch: WatchIndex, t: f64, end: f64, start: Start) -> Search {
