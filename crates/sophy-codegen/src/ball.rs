@@ -159,8 +159,8 @@ impl<T: Scalar> Scalar for BallOf<T> {
         self.moved(self.middle.ln(), slope)
     }
     fn log10(self) -> Self {
-        // 1/ln 10 < 0.4343
-        let slope = Self::if_less(T::of(0.0), self.least(), || T::of(0.4343) / self.least());
+        // 1/ln 10 < 0.45
+        let slope = Self::if_less(T::of(0.0), self.least(), || T::of(0.45) / self.least());
         self.moved(self.middle.log10(), slope)
     }
     fn tan(self) -> Self {

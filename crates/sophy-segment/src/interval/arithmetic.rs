@@ -40,7 +40,18 @@ impl Mul for Interval {
         if a.lo == a.hi && b.lo == b.hi {
             return product(a.lo, b.lo);
         }
-        (product(a.lo, b.lo).hull(product(a.lo, b.hi))).hull(product(a.hi, b.lo).hull(product(a.hi, b.hi)))
+        if a.lo < 0.0 && a.hi <= 0.0 {
+            return -(-a * b);
+        }
+        let between = |(x, y), (z, w)| Interval { lo: product(x, y).lo, hi: product(z, w).hi };
+        match (a.lo >= 0.0, b.lo >= 0.0, b.hi <= 0.0) {
+            (true, true, _) => between((a.lo, b.lo), (a.hi, b.hi)),
+            (true, _, true) => between((a.hi, b.lo), (a.lo, b.hi)),
+            (true, _, _) => between((a.hi, b.lo), (a.hi, b.hi)),
+            (_, true, _) => between((a.lo, b.hi), (a.hi, b.hi)),
+            (_, _, true) => between((a.hi, b.lo), (a.lo, b.lo)),
+            _ => between((a.lo, b.hi), (a.lo, b.lo)).hull(between((a.hi, b.lo), (a.hi, b.hi))),
+        }
     }
 }
 
@@ -258,6 +269,22 @@ mod tests {
         assert_eq!(i(-2.0, 1.0).square(), i(0.0, 4.0));
         assert_eq!(i(-2.0, 1.0).powi(3), i(-8.0, 1.0));
         assert_eq!(i(-2.0, 1.0).powi(-1), Interval::ENTIRE);
+    }
+
+    /// Which ends matter follows from the signs: all four products are tried here.
+    #[test]
+    fn products_are_hulls_of_the_products_of_ends() {
+        let ends = [-INF, f64::MIN, -3.0, -0.1, -0.0, 0.0, 1e-100, 0.1, 7.0, f64::MAX, INF];
+        let all: Vec<Interval> = ends
+            .into_iter()
+            .flat_map(|lo| ends.map(|hi| i(lo, hi)))
+            .filter(|x| x.lo <= x.hi && x.lo < INF && x.hi > -INF)
+            .collect();
+        for (&a, &b) in all.iter().flat_map(|a| all.iter().map(move |b| (a, b))) {
+            let products = [(a.lo, b.lo), (a.lo, b.hi), (a.hi, b.lo), (a.hi, b.hi)];
+            let hull = products.map(|(x, y)| super::product(x, y)).into_iter().reduce(Interval::hull);
+            assert_eq!(Some(a * b), hull, "{a:?} {b:?}");
+        }
     }
 
     #[test]

@@ -92,6 +92,8 @@ enum Due {
 
 /// Sides that differ by no more than so many relative roundings are equal.
 const EQUAL: f64 = 64.0;
+/// So many parts of a window are looked at quickly if one look at all of it was not enough.
+const GLANCES: u32 = 4;
 /// What a quick look must leave of a difference, for its own rounding.
 const SURE: f64 = 1.0 - 1e-12;
 /// The least part of its window that a search must decide.
@@ -462,11 +464,13 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
             .fold(f64::INFINITY, f64::min);
         let far = t + self.settings.window;
         let end = if next > t && next < far { next } else { far };
-        let start = Start { sign: self.watches[watch.position()].sign, on_surface };
-        if self.stays(e, watch, t, end, start.sign) {
+        let mut start = Start { sign: self.watches[watch.position()].sign, on_surface };
+        let sure = self.stays_until(e, watch, t, end, start.sign);
+        if sure == end {
             return Ok((end, Due::Search));
         }
-        let until = match self.search_from(e, watch, t, end, start) {
+        start.on_surface &= sure == t;
+        let until = match self.search_from(e, watch, sure, end, start) {
             Search::Crossing(time) => return Ok((time, if time > t { Due::Root } else { Due::Joint })),
             Search::None => end,
             // Equal sides keep the sign that was decided until they certainly differ.
@@ -481,7 +485,24 @@ impl<const ORDER: usize, const IMPLICIT: bool> Qss<ORDER, IMPLICIT> {
         }
     }
 
-    /// Whether a quick look is enough to see that a watched difference keeps its sign until `end`.
+    /// How long a watched difference keeps its sign for all that quick looks can tell: until `end`, or part of the way.
+    fn stays_until(&mut self, e: &Equations, watch: WatchIndex, t: f64, end: f64, sign: Sign) -> f64 {
+        if self.stays(e, watch, t, end, sign) {
+            return end;
+        }
+        let mut sure = t;
+        for part in 1..=GLANCES {
+            let next =
+                if part < GLANCES { t + (end - t) * (f64::from(part) / f64::from(GLANCES)) } else { end };
+            if !(next > sure && self.stays(e, watch, sure, next, sign)) {
+                break;
+            }
+            sure = next;
+        }
+        sure
+    }
+
+    /// Whether a quick look is enough to see that a watched difference keeps its sign between two times.
     fn stays(&mut self, e: &Equations, watch: WatchIndex, t: f64, end: f64, sign: Sign) -> bool {
         self.statistics.enclosures += 1;
         let (code, copy) = e.watch(watch);
