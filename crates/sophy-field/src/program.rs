@@ -234,9 +234,8 @@ impl Kernels {
     /// Kernels by program and then by orders − 1, and those that bound, by program; `code` is what they live in.
     ///
     /// # Safety
-    /// A kernel lives as long as `code`. Run with operands of a [`Call`] of its program, one of the copies, and memory
-    /// of the length in the [`Equations`](crate::Equations) it was made for, it stays inside both; and if it bounds,
-    /// inside of as many balls as numbers stand behind the records.
+    /// A kernel lives as long as `code`. Run with operands of a [`Call`] of its program, one of the copies, memory as long as
+    /// its [`Equations`](crate::Equations) say, and a ball for each number behind the records, it stays inside of them.
     #[allow(unsafe_code)]
     pub unsafe fn new(
         of: Vec<[Option<Kernel>; 4]>,
