@@ -19,11 +19,11 @@ pub(crate) struct BallOf<T> {
     pub(crate) radius: T,
 }
 
-/// What one rounding may lose of a number, relatively: twice that.
+/// Twice what one rounding may lose of a number, as a part of it.
 const ROUNDING: f64 = f64::EPSILON;
-/// The same of a function of the library.
+/// The same for a function of the library.
 const LIBRARY: f64 = 4.0 * f64::EPSILON;
-/// The same of a polynomial of degree 3 and of its derivatives.
+/// The same for a polynomial of degree 3 and its derivatives.
 const POLYNOMIAL: f64 = 64.0 * f64::EPSILON;
 /// What underflow may lose.
 const TINY: f64 = f64::MIN_POSITIVE;
@@ -47,7 +47,7 @@ impl<T: Scalar> BallOf<T> {
         Self::around(middle, self.radius * slope, LIBRARY)
     }
 
-    /// `radius`, or an infinite one, unless `low < high`.
+    /// `radius` if `low < high`, else an infinite one.
     #[inline]
     fn if_less(low: T, high: T, radius: impl FnOnce() -> T) -> T {
         let [radius] = T::choose(low.less(high), || [radius()], || [T::of(f64::INFINITY)]);
@@ -200,20 +200,6 @@ impl<T: Scalar> Scalar for BallOf<T> {
         let middle = self.middle.pow(exponent.middle);
         let radius = through.radius + (middle - through.middle).abs();
         Self::around(middle, Self::if_less(T::of(0.0), self.least(), || radius), LIBRARY)
-    }
-    fn integer_power(self, n: i32) -> Self {
-        let mut remaining = n.unsigned_abs();
-        let (mut square, mut product) = (self, Self::of(1.0));
-        while remaining > 0 {
-            if remaining & 1 == 1 {
-                product = product * square;
-            }
-            remaining >>= 1;
-            if remaining > 0 {
-                square = square * square;
-            }
-        }
-        if n < 0 { Self::of(1.0) / product } else { product }
     }
     fn floor(self) -> Self {
         let jump = Self::if_less(T::of(0.0), self.radius, || self.radius + T::of(1.0));

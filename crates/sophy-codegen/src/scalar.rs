@@ -26,7 +26,21 @@ pub(crate) trait Scalar:
     fn atanh(self) -> Self;
     fn atan2(self, x: Self) -> Self;
     fn pow(self, exponent: Self) -> Self;
-    fn integer_power(self, n: i32) -> Self;
+    /// The chain of products of [`sophy_ir::arithmetic::integer_power`].
+    fn integer_power(self, n: i32) -> Self {
+        let mut remaining = n.unsigned_abs();
+        let (mut square, mut product) = (self, Self::of(1.0));
+        while remaining > 0 {
+            if remaining & 1 == 1 {
+                product = product * square;
+            }
+            remaining >>= 1;
+            if remaining > 0 {
+                square = square * square;
+            }
+        }
+        if n < 0 { Self::of(1.0) / product } else { product }
+    }
     fn floor(self) -> Self;
     fn sign(self) -> Self;
     /// A whole number that is not negative.

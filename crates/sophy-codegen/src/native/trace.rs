@@ -236,22 +236,6 @@ impl Scalar for Traced {
         note(Operation::CallTwo(FunctionOfTwo::Pow, self.0, exponent.0))
     }
 
-    /// The chain of [`sophy_ir::arithmetic::integer_power`].
-    fn integer_power(self, n: i32) -> Self {
-        let mut remaining = n.unsigned_abs();
-        let (mut square, mut product) = (self, Self::of(1.0));
-        while remaining > 0 {
-            if remaining & 1 == 1 {
-                product = product * square;
-            }
-            remaining >>= 1;
-            if remaining > 0 {
-                square = square * square;
-            }
-        }
-        if n < 0 { Self::of(1.0) / product } else { product }
-    }
-
     /// [`sophy_ir::arithmetic::sign`].
     fn sign(self) -> Self {
         let zero = Self::of(0.0);
